@@ -194,9 +194,9 @@ class Result(Generic[StudyT]):
         """
         if "uncertainty" not in self.data:
             from tvimdesign.report.run.answered_study import note_uncertainty
-            from tvimdesign.report.run.uncertainty_data import Uncertainty
+            from tvimdesign.report.run.uncertainty_data import uncertainty_data
 
-            note_uncertainty(self._answered, Uncertainty(self._answered.study).data(self.design))
+            note_uncertainty(self._answered, uncertainty_data(self._answered.study, self.design))
         entry: dict[str, Any] = self.data["uncertainty"]
         return entry
 

@@ -19,7 +19,7 @@ from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study, note_uncertainty
 from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.run.uncertainty_data import Uncertainty
+from tvimdesign.report.run.uncertainty_data import uncertainty_data
 from tvimdesign.solve.anchored_search import NearOptimum, optimum_near
 from tvimdesign.solve.nlp import constraints
 from tvimdesign.solve.nlp.solution import Solution
@@ -236,7 +236,7 @@ class Engine:
         if result.has_design and state.way == "optimize" and answered.study.robust:
             progress("computing yield and intervals over the assumed values")
             with suppress(TvimError):
-                note_uncertainty(answered, Uncertainty(answered.study).data(design))
+                note_uncertainty(answered, uncertainty_data(answered.study, design))
         says = verdict_of(answered)
         shown["verdict"], shown["tone"] = says.text, says.tone
         shown["found"] = result.has_design

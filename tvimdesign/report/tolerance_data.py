@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,6 @@ import numpy as np
 from tvimdesign.base.units import from_si, pretty, si_unit, to_si
 from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import axis_label, finite, head, name_in_words
-from tvimdesign.report.run.uncertainty_data import share_entry
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread
 from tvimdesign.study import Study
@@ -82,7 +82,7 @@ def reported(spread: Spread, preload: Preload | None, table: Table, study: Study
     return {
         **head(),
         "samples": samples,
-        "yield": share_entry(spread.together),
+        "yield": spread.together and asdict(spread.together),
         "outputs": rows,
         "limits": list(limit_rows(spread, table)),
         "contributors": list(contributor_rows(spread, table, study)),

@@ -64,14 +64,14 @@ def answer(
     """Return an optimised study as far as a verdict looks at it."""
     every = {"response_time": 60.0, "stiffening_time": 120.0, **(values or {})}
     design = SimpleNamespace(
-        mode="shear", choices={"making_method": "printed"}, status=status, values=every, value=every.__getitem__,
-        above_rating=above,
+        table=table_for("shear"), choices={"making_method": "printed"}, status=status, values=every,
+        value=every.__getitem__, above_rating=above,
         study={"require": require, "robust": robust, "minimize": {"module_mass": 1.0}},
     )  # fmt: skip
     of = {"conflict_set": None, "out_of_time": None, "yield_reached": None, **solution}
-    return cast(
-        StudyResult, SimpleNamespace(design=design, has_design=feasible, checks=checks, solution=SimpleNamespace(**of))
-    )
+    result = SimpleNamespace(design=design, has_design=feasible, checks=checks, solution=SimpleNamespace(**of))
+    result.yield_reached = of["yield_reached"]
+    return cast(StudyResult, result)
 
 
 def named(parts: list[Any]) -> list[Any]:
@@ -173,7 +173,10 @@ def chosen(own: float, robust: dict[str, Any] | None, spring: str = "none") -> s
         20, 20, 0, 0, best=best, between=None, proven=False, improved=0.0, work=none, proof=none, inside=0.0
     )
     design = SimpleNamespace(
-        mode="shear", values={"wire_diameter": own}, choices={"stock_spring": spring}, study={"robust": robust}
+        table=table_for("shear"),
+        values={"wire_diameter": own},
+        choices={"stock_spring": spring},
+        study={"robust": robust},
     )
     answer = SimpleNamespace(solution=SimpleNamespace(choosing=choosing), design=design)
     return chosen_fact(cast(StudyResult, answer))[0].text

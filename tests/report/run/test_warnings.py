@@ -30,7 +30,7 @@ from tvimdesign.report.run.blocks.warnings import (
     warnings_of,
 )
 from tvimdesign.report.run.first_screen import warning_lines
-from tvimdesign.report.run.uncertainty_data import Uncertainty
+from tvimdesign.report.run.uncertainty_data import uncertainty_data
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.remedies import Bound, Remedies, _changes
@@ -251,7 +251,7 @@ def spread(model: UncertaintyModel, module: ResolvedModule) -> DesignUncertainty
 
 @pytest.mark.slow
 def test_the_yield_is_what_tolerate_says(result, module, model):
-    data = Uncertainty(STUDY).data(result.design, SAMPLES)
+    data = uncertainty_data(STUDY, result.design, SAMPLES)
     expected = Tolerancing(module, lambda _: None).analyse(SAMPLES, STUDY.solver.seed)
     assert 0.02 < expected.together.share < 0.98
     assert data["parts_yield"]["share"] == expected.together.share
@@ -262,7 +262,7 @@ def test_the_yield_is_what_tolerate_says(result, module, model):
 
 @pytest.mark.gate
 def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(result, module, model):
-    data = Uncertainty(STUDY).data(result.design, 0)
+    data = uncertainty_data(STUDY, result.design, 0)
     limit = next(limit for limit in model.limits if limit.name == next(iter(data["held"])))
     main = next(iter(data["intervals"][limit.output]["shares"]))
     sense, number = data["needs"].removeprefix(f"{label(main)} ").split(" ", 1)
@@ -300,7 +300,7 @@ def test_an_uncertainty_that_is_not_computed_is_a_warning(tvimdesign, tmp_path, 
         raise TvimError("no start")
 
     (tmp_path / "arm.yaml").write_text(ARM)
-    monkeypatch.setattr(Uncertainty, "data", no_start)
+    monkeypatch.setattr("tvimdesign.report.run.uncertainty_data.uncertainty_data", no_start)
     done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", cwd=tmp_path, spread="on")
     assert done.returncode == 4, done.stderr
     text = " ".join(done.stdout.split())

@@ -17,7 +17,7 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import from_si
 from tvimdesign.cad.cad_report import PREVIEW
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
 from tvimdesign.report.output.command import record_files
 from tvimdesign.report.output.numbers import axis_label, curves_csv, head, name_in_words
@@ -139,7 +139,7 @@ def _spring_torque(design: Design) -> dict[str, list[float]]:
     angle = np.linspace(-design.value("stroke"), design.value("stroke"), LOOP_SAMPLES)
     known = {**design.choices, **design.values, "stroke": np.abs(angle)}
     del known[_SPRINGS]
-    torque = np.sign(angle) * table_for(design.mode).evaluate(known, [_SPRINGS])[_SPRINGS]
+    torque = np.sign(angle) * design.table.evaluate(known, [_SPRINGS])[_SPRINGS]
     return {"spring_angle": angle.tolist(), "springs": torque.tolist()}
 
 

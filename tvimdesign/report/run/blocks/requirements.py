@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.page.blocks import Cell, Grid, Head, Tone
 from tvimdesign.report.output.numbers import in_unit, label, number, range_text
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, on_limit, value_text
@@ -52,7 +52,7 @@ class Requirement:
 
 def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Requirement]:
     """Return an entry for each output the study requires something of, then the machine's violated rules."""
-    table, intervals = table_for(answer.design.mode), uncertainty.get("intervals", {})
+    table, intervals = answer.design.table, uncertainty.get("intervals", {})
     limits_by_output: dict[str, list[Mapping[str, Any]]] = {}
     for limit in (*answer.design.study["require"], *answer.design.study.get("simulated", ())):
         limits_by_output.setdefault(limit["output"], []).append(limit)
@@ -144,7 +144,7 @@ def _requirement(
 
 def _got(answer: StudyResult, names: Sequence[str], unit: str, check: ConstraintCheck) -> str:
     """Return the value of the first output; `5.2 to 5.8` if the limit is on the others too."""
-    name, table = names[0], table_for(answer.design.mode)
+    name, table = names[0], answer.design.table
     if name in answer.intervals:
         text = value_text(answer, name, table, rounded=True)
     elif check.absolute and check.met and abs(check.margin) <= NOTHING and check.output == name:

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Input, Output, Table, table_for
+from tvimdesign.device import Input, Output, Table
 from tvimdesign.page.blocks import Grid
 from tvimdesign.report.output.choices_tables import choice_text, shares
 from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, percent, range_text
@@ -23,7 +23,7 @@ _NAMED = 4
 
 def variables_grid(answer: StudyResult) -> Grid:
     """Return the start and the end of each variable, with its range."""
-    table, rows = table_for(answer.design.mode), []
+    table, rows = answer.design.table, []
     first = answer.solution.starts[0].begin if answer.solution else {}
     for name, vary in answer.design.study["vary"].items() if answer.solution else ():
         if name not in first and name not in answer.design.choices:
@@ -55,7 +55,7 @@ def choices_grid(choosing: Choosing, table: Table) -> Grid:
 
 def points_grid(answer: StudyResult) -> Grid:
     """Return the quantities that have a value at each operating point."""
-    table, points = table_for(answer.design.mode), list(answer.design.study["operating_points"])
+    table, points = answer.design.table, list(answer.design.study["operating_points"])
     shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
     shown += [row for row in table.outputs if row.per_point and row.headline and row.exists(answer.design.choices)]
     at_end = {"temperature": "softened_temperature", "frequency": "frequency@hot"}
@@ -73,7 +73,7 @@ def points_grid(answer: StudyResult) -> Grid:
 
 def module_grid(answer: StudyResult) -> Grid:
     """Return the headline quantities that have one value; none at the hot point if heating does not get there."""
-    table = table_for(answer.design.mode)
+    table = answer.design.table
     hot_unreached = "hot" in unreached_points(answer.design.values)
     shown = [row for row in table.outputs if row.headline and not row.per_point and row.exists(answer.design.choices)]
     rows = [
@@ -90,7 +90,7 @@ def torque_path_grid(answer: StudyResult) -> Grid:
     The weakest is first. Feet bear what their safety leaves beside the others. The safety is against the torque the
     study asks for, or against the one that is held.
     """
-    table, values, against = table_for(answer.design.mode), answer.design.values, requested_torque(answer.design)
+    table, values, against = answer.design.table, answer.design.values, requested_torque(answer.design)
     parts = [
         name for name in table.output("holding_torque").least_of if table.output(name).exists(answer.design.choices)
     ]
@@ -118,7 +118,7 @@ def currents_grid(answer: StudyResult) -> Grid:
 
 def profile_grid(answer: StudyResult) -> Grid:
     """Return what a current profile buys: this module at its default current, and the best constant current's own."""
-    table, best = table_for(answer.design.mode), answer.solution.constant if answer.solution else None
+    table, best = answer.design.table, answer.solution.constant if answer.solution else None
     driven = [table.phase(phase).current_input for phase in answer.design.current_profiles]
     defaults = {name: getattr(table.quantity(name), "default", None) or 0.0 for name in driven}
     rows = []
@@ -134,7 +134,7 @@ def profile_grid(answer: StudyResult) -> Grid:
 
 def checks_grid(answer: StudyResult) -> Grid:
     """Return every requirement, and the machine's own rules that are active or violated; a note counts the others."""
-    table = table_for(answer.design.mode)
+    table = answer.design.table
     shown = [check for check in answer.checks
              if check.origin == "require" or check.worst <= NOTHING or is_active(check, answer)]  # fmt: skip
     hidden = len(answer.checks) - len(shown)

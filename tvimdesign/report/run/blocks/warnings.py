@@ -10,7 +10,7 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.record import own_data, plain_data
 from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.cad.assembly.heater_leads import fuse_to_ask_for
-from tvimdesign.device import Table, table_for
+from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import held_by, label, with_unit
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.report.run.reasons import endings
@@ -128,13 +128,13 @@ def _cure(answer: StudyResult, remedy: Remedy) -> str:
     if remedy.bound is None:
         return f"{how} {remedy.line}" if remedy.line else ""
     output, is_most, (value, limits) = remedy.bound
-    most = with_unit(value, table_for(answer.design.mode).unit(output), 3)
+    most = with_unit(value, answer.design.table.unit(output), 3)
     return f"{held_by(limits)} limit the {label(output)} to at {'most' if is_most else 'least'} {most}"
 
 
 def _of_advice(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarning]:
     """Yield ratings and advice that the design does not follow, the gravest first."""
-    table, above = table_for(answer.design.mode), answer.design.above_rating
+    table, above = answer.design.table, answer.design.above_rating
     levels = {check.output: "grave" if check.output in above else _hint(check.output, check.value).get("level", "")
               for check in answer.warnings}  # fmt: skip
     harmless = "" if missed_points(answer) else "hot_point_margin"
@@ -199,7 +199,7 @@ def missed_points(answer: StudyResult) -> dict[str, str]:
 
     An output that is not known there counts as missed.
     """
-    values, table = answer.design.values, table_for(answer.design.mode)
+    values, table = answer.design.values, answer.design.table
     return {
         point: limit["output"]
         for point in unreached_points(values)
