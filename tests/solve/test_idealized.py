@@ -14,9 +14,10 @@ from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
 from tvimdesign.report.run.blocks.more_facts import more_facts
 from tvimdesign.report.run.blocks.verdict import verdict
-from tvimdesign.report.run.front_report import of_ratings, ratings_note
+from tvimdesign.report.run.front_report import ratings_note
 from tvimdesign.report.run.reasons import above_rating
 from tvimdesign.report.run.run_study import foreseen_ratings
+from tvimdesign.solve.pareto.front import design_at
 from tvimdesign.solve.pareto.tradeoff import Point
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
@@ -169,12 +170,13 @@ def test_check_says_it_beforehand_of_the_module_a_search_starts_from():
 
 
 def test_a_point_of_a_front_has_its_own():
-    values, study = answered().design.values, {"accept": list(BOTH)}
-    assert of_ratings(Point("between", values, {}), study, TABLE) == {
-        "status": "above_rating", "above_rating": (PADS,), "accepting": ("structure_temperature_margin", BOTH[1]),
-    }  # fmt: skip
-    cooler = Point("between", values | {PADS: 1.0}, {})
-    assert of_ratings(cooler, study, TABLE)["status"] == "optimal"
+    accepts = {"study": {"accept": list(BOTH)}, "accepting": (), "above_rating": ()}
+    design = answered().design.model_copy(update=accepts)
+    point = design_at(design, Point("between", design.values, {}), 2)
+    assert point.status == "above_rating"
+    assert (point.above_rating, set(point.accepting)) == ((PADS,), set(BOTH))
+    cooler = Point("between", design.values | {PADS: 1.0}, {})
+    assert design_at(design, cooler, 2).status == "optimal"
     assert ratings_note([(PADS,), ()]).startswith("points 1 of the front")
 
 

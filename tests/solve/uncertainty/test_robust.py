@@ -18,7 +18,6 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.device import table_for
 from tvimdesign.report.run.blocks.facts import _manufacturing
 from tvimdesign.report.run.blocks.verdict import verdict
-from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.report.run.uncertainty_data import below_yield, changes, lever, uncertainty_data
 from tvimdesign.simulation.working_cycle.device_functions import resolve_design
@@ -27,7 +26,7 @@ from tvimdesign.solve.nlp.solution import EasedRequirement, TightenedTolerance, 
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.nlp.spread import Contributor
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.pareto.front import Front, trace_front
+from tvimdesign.solve.pareto.front import Front, kept_at, trace_front
 from tvimdesign.solve.pareto.tradeoff import Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import optimize

@@ -28,10 +28,7 @@ from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.report.run.reasons import above_rating, complaint, starts_reported
 from tvimdesign.report.run.uncertainty_data import below_yield, uncertainty_of
 from tvimdesign.solve import anchored_search
-from tvimdesign.solve.nlp.solver_run import Run
-from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
-from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
+from tvimdesign.solve.pareto.front import FrontSearch
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.design import Design, read_design
@@ -96,7 +93,7 @@ class ComparisonJob:
         self._others = others
         self.table = self.study.table
         self.points, self.say = points, say
-        self._built: list[tuple[Optimizer, list[Run]]] = []
+        self._fronts = FrontSearch(self.study)
         self.answer = empty_answer()
 
     @cached_property
@@ -121,7 +118,7 @@ class ComparisonJob:
                 self.say("verdict")
                 warnings = warnings_of(answered, record_checks(self.study))
                 self.answer[which]["verdict"] = verdict(answered, uncertainty_of(answered, self.study), warnings).text
-        if answered and self._built and self.points:
+        if answered and answered.solution and self.points:
             with self._step("fronts"):
                 self._trade(answered)
         return self.answer
@@ -143,8 +140,7 @@ class ComparisonJob:
         starts = [anchored_search.at_its_start(study) for study in (self.study, *self.others)]
         common = anchored_search.common(starts)
         objectives = front_outputs(self.study, self.table) if self.points else ()
-        built = self._built
-        answered = answer(self.study, self.say, common, lambda *search: built.append(search), objectives)
+        answered = answer(self.study, self.say, common, self._fronts.keep, objectives)
         if not answered.has_design:
             raise InfeasibleError(complaint(answered, self.table))
         self.answer["optimised"] = self._compared(answered)
@@ -162,29 +158,22 @@ class ComparisonJob:
 
     def _trade(self, best: StudyResult) -> None:
         assert best.solution is not None
-        trade = Tradeoff(self.study, best.solution, *self._built[0], self.say)
+        optimum = self._fronts.begin(best.solution, self.say)
         first, *others = front_outputs(self.study, self.table)
         for second in others:
-            front = completed(trace_front(trade, (first, second), self.points), trade)
-            self.answer["fronts"].append(self._plain(front, trade.optimum))
-
-    @staticmethod
-    def _plain(front: Front, optimum: Point) -> dict[str, Any]:
-        """Return a front in SI, with the study's own optimum where it is on it; null where something never happens."""
-        first, second = front.outputs
-        points = sorted(undominated([*front.points, optimum], front.outputs), key=lambda point: point.values[first])
-        plain: dict[str, Any] = all_finite({
-            "first": first,
-            "second": second,
-            "notes": front.notes,
-            "dominated": front.dominated,
-            "failures": [asdict(failure) for failure in front.failures],
-            "points": [
-                {"where": point.where, "values": point.values, "current_profiles": point.current_profiles}
-                for point in points
-            ],
-        })  # fmt: skip
-        return plain
+            front = self._fronts.seek((first, second), self.points)
+            entry = all_finite({
+                "first": first,
+                "second": second,
+                "notes": front.notes,
+                "dominated": front.dominated,
+                "failures": [asdict(failure) for failure in front.failures],
+                "points": [
+                    {"where": point.where, "values": point.values, "current_profiles": point.current_profiles}
+                    for point in front.joined(optimum)
+                ],
+            })  # fmt: skip
+            self.answer["fronts"].append(entry)
 
 
 def main(arguments: list[str]) -> int:

@@ -86,8 +86,8 @@ def answer_study(
     table = study.table
     study = drawn(study) if drawn_only else study
     deadline = deadline or Deadline(study.solver.time_limit)
-    front, search = FrontOfRun(study, table, folder), search or partial(optimize, deadline=deadline, eases=True)
-    result = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search, designed=designed)
+    front, search = FrontOfRun(study, folder), search or partial(optimize, deadline=deadline, eases=True)
+    result = answer(study, progress, keep=front.search.keep, objectives=front.outputs, search=search, designed=designed)
     early(result)
     answered = AnsweredStudy(tree, study, result, front, _reported(result, table), deadline=deadline)
     answered.reported["doubts"] = record_checks(study)

@@ -287,7 +287,7 @@ def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
         folder.write(f"{phase}.csv", curves_csv(history, PHASE_UNITS, "degC"))
     units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in result.sweep}
     folder.write("impedance.csv", curves_csv(result.sweep, units, "1"))
-    answered.front.write(folder, result)
+    answered.front.write(folder)
     return write_design(result.design, folder.path / "design.json")
 
 
