@@ -101,7 +101,7 @@ def test_a_stroke_that_no_hardware_bears_is_refused_before_the_search(monkeypatc
 def test_what_no_number_alone_cures_is_cured_by_several(monkeypatch):
     """Name half the usual torque of 100 mm, 8 N*m (100/70)^3 = 23 N*m, and an eighth of it as stiffness."""
     task, fits = JointTask.read(**WRIST | {"diameter": "100 mm", "torque": "500 N.m"}), 12.0
-    monkeypatch.setattr(sized_joint, "_hardware", lambda joint: "large" if joint.torque < fits else "")
+    monkeypatch.setattr(sized_joint, "_hardware", lambda joint, **_: "large" if joint.torque < fits else "")
     for alone in ("_other_stiffness", "_less"):
         monkeypatch.setattr(sized_joint, alone, lambda _: None)
     monkeypatch.setattr(sized_joint, "_wider", lambda _: (None, None))

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import parse_quantity
@@ -125,19 +125,15 @@ def _with_another_record(task: JointTask, name: str, progress: Progress) -> tupl
     return min(fitting, default=None)
 
 
-def _candidates(task: JointTask) -> list[str]:
-    return hardware_by_fit(task)[:_CANDIDATES]
+def _hardware(task: JointTask, *, margins: bool = True) -> str:
+    """Return the best set of hardware with which the limits can hold; empty if none does."""
+    return next((name for name in hardware_by_fit(task)[:_CANDIDATES] if _least(task, name, margins=margins)), "")
 
 
-def _hardware(task: JointTask) -> str:
-    """Return the best set of hardware with which the limits can hold with margins; empty if none does."""
-    return next((hardware for hardware in _candidates(task) if _least_diameter(task, hardware)), "")
-
-
-def _least_diameter(task: JointTask, hardware: str) -> float | None:
-    """Return the least diameter with margins, for ranges that suit the one asked for; None if that is not enough."""
-    least = _extreme(task, hardware, "envelope_diameter")
-    return least.value if least and least.value <= task.diameter else None
+def _least(task: JointTask, hardware: str, *, margins: bool = True) -> Extreme | None:
+    """Return the least diameter, for ranges that suit the one asked for; None if that is not enough."""
+    least = _extreme(task, hardware, "envelope_diameter", margins=margins)
+    return least if least and least.value <= task.diameter else None
 
 
 def _extreme(
@@ -152,8 +148,7 @@ def _extreme(
     if output == "stroke":
         study, output, beyond = with_free_stroke(study), "stop_angle", given(study)["stop_margin"]
     for seed in _SEEDS:
-        solver = study.solver.model_copy(update={"seed": seed})
-        seeded = study.model_copy(update={"solver": solver})
+        seeded = study.model_copy(update={"solver": study.solver.model_copy(update={"seed": seed})})
         if extreme := least_with_margins(seeded, output, weight, margins=margins):
             return extreme._replace(value=extreme.value - beyond)
     return None
@@ -171,12 +166,9 @@ def _nearest(task: JointTask, wider: JointTask | None) -> list[dict[str, str]]:
 def _wider(task: JointTask) -> tuple[JointTask | None, Extreme | None]:
     """Return the task with the smallest diameter that some hardware bears, in whole millimetres, and what ends it."""
     for wider, hardware in _wider_ones(task):
-        nominal = _extreme(wider, hardware, "envelope_diameter", margins=False)
-        if nominal and nominal.value <= wider.diameter:
-            least = _extreme(wider, hardware, "envelope_diameter")
-            if least and least.value <= wider.diameter:
-                snug = replace(task, diameter=1e-3 * math.ceil(max(_ROOM * least.value, task.diameter) / 1e-3))
-                return snug if snug.diameter < wider.diameter and _hardware(snug) else wider, least
+        if _least(wider, hardware, margins=False) and (least := _least(wider, hardware)):
+            snug = replace(task, diameter=1e-3 * math.ceil(max(_ROOM * least.value, task.diameter) / 1e-3))
+            return snug if snug.diameter < wider.diameter and _hardware(snug) else wider, least
     return None, None
 
 
@@ -195,28 +187,26 @@ def _other_stiffness(task: JointTask) -> JointTask | None:
     for hardware in hardware_by_fit(task)[:_BESIDE]:
         for weight in (1.0, -1.0):
             end = _extreme(task, hardware, "joint_stiffness@hot", weight, margins=False)
-            if end and weight * end.value > weight * task.stiffness[weight > 0.0]:
-                other = task.with_stiffness(_down(end.value))
-                if _hardware(other):
-                    return other
+            beyond = end and weight * end.value > weight * task.stiffness[weight > 0.0]
+            if end and beyond and _hardware(other := task.with_stiffness(_down(end.value))):
+                return other
     return None
 
 
 def _less(task: JointTask) -> JointTask | None:
     """Return the task with the largest stroke, or torque where none was given, that hardware of its diameter has."""
-    by_torque = task.assumes_stroke
-    requested, most = (
-        task.torque if by_torque else task.stroke,
-        _most(task, "holding_torque" if by_torque else "stroke"),
-    )
-    values = [_down(share * min(most.value if most else requested, requested)) for share in _SHARES]
-    lesser = (replace(task, torque=value) if by_torque else replace(task, stroke=value) for value in values)
+    option, output = ("torque", "holding_torque") if task.assumes_stroke else ("stroke", "stroke")
+    requested, most = getattr(task, option), _most(task, output)
+    values: list[Any] = [_down(share * min(most.value if most else requested, requested)) for share in _SHARES]
+    lesser = (replace(task, **{option: value}) for value in values)
     return next((other for other in lesser if other != task and _hardware(other)), None)
 
 
 def _most(task: JointTask, output: str, *, margins: bool = True) -> Extreme | None:
     """Return the largest value of an output that hardware for a diameter allows; None if no search finds one."""
-    values = [_extreme(task, hardware, output, -1.0, margins=margins) for hardware in _candidates(task)]
+    values = [
+        _extreme(task, hardware, output, -1.0, margins=margins) for hardware in hardware_by_fit(task)[:_CANDIDATES]
+    ]
     return max((most for most in values if most), default=None)
 
 
@@ -225,17 +215,14 @@ def _too_long(task: JointTask) -> Extreme | None:
     longest = None if task.assumes_stroke else _most(task, "stroke", margins=False)
     if longest is None or longest.value >= task.stroke:
         return None
-    searches = (_extreme(task, hardware, "envelope_diameter", margins=False) for hardware in _candidates(task))
-    return None if any(least and least.value <= task.diameter for least in searches) else longest
+    return None if _hardware(task, margins=False) else longest
 
 
 def _less_of_all(task: JointTask) -> JointTask | None:
     """Return the task with less torque, its usual stiffness and at most the usual stroke, which fit together."""
     torques = [_down(share * min(task.torque, _USUAL * task.diameter**3)) for share in _LESSER]
     stroke = min(task.stroke, parse_quantity(STROKE, "rad"))
-    lesser = (
-        replace(task, torque=torque, stroke=stroke).with_stiffness(_down(_AN_EIGHTH * torque)) for torque in torques
-    )
+    lesser = (replace(task, torque=each, stroke=stroke).with_stiffness(_down(_AN_EIGHTH * each)) for each in torques)
     return next((other for other in lesser if _hardware(other)), None)
 
 
