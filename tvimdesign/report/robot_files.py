@@ -42,12 +42,8 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
     """Return what the models say, as plain data in SI."""
     return {
         **head(),
-        "name": model.name,
-        "time_step": model.step,
-        "stroke": model.stroke,
-        "stop_angle": model.stop_angle,
-        "holding_torque": model.holding_torque,
-        "load_inertia": model.load,
+        "name": model.name, "time_step": model.step, "stroke": model.stroke, "stop_angle": model.stop_angle,
+        "holding_torque": model.holding_torque, "load_inertia": model.load,
         "masses": {body.name: body.mass for body in (model.base, model.moving)},
         "states": {
             state.point: {
@@ -58,7 +54,7 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
         },
         "fmu": {"file": fmu.path.name, "platform": fmu.platform},
         "left_out": list(model.left_out),
-    }
+    }  # fmt: skip
 
 
 def model_blocks(model: JointModel, fmu: WrittenFmu) -> list[Block]:

@@ -244,9 +244,7 @@ def results(answer: StudyResult, table: Table) -> dict[str, Any]:
     constant = answer.solution.constant if answer.solution else None
     return {
         **numbers.head(),
-        "name": design.name,
-        "mode": design.mode,
-        "status": design.status,
+        **{name: getattr(design, name) for name in ("name", "mode", "status")},
         "feasible": answer.feasible,
         "choices": design.choices,
         "values": entries(design.values),
@@ -280,27 +278,22 @@ def number_entries(values: Mapping[str, float], table: Table) -> dict[str, dict[
 def duty_entry(duty: DutyResult, table: Table) -> dict[str, Any]:
     """Return the result of a duty, with units."""
     return {
-        "values": number_entries(duty.values, table),
-        "exceeded": list(duty.exceeded),
+        "values": number_entries(duty.values, table), "exceeded": list(duty.exceeded),
         "settling_time": numbers.number_entry(duty.settling, "min"),
         "energy_a_day": numbers.number_entry(duty.energy_a_day, "kJ"),
-        "most_switches_per_hour": duty.most,
-        "limited_by": duty.limited_by,
-    }
+        "most_switches_per_hour": duty.most, "limited_by": duty.limited_by,
+    }  # fmt: skip
 
 
 def control_entry(control: ControlResult) -> dict[str, Any]:
     """Return the controller and what it does, with units."""
     return {
-        "controller": asdict(control.controller),
-        "share": SHARE,
+        "controller": asdict(control.controller), "share": SHARE,
         "overshoot": numbers.number_entry(control.overshoot, "K"),
         "hottest_pads": numbers.number_entry(control.hottest_pads, "degC"),
-        "settling": control.settling,
-        "settling_of_nominal": control.settling_of_nominal,
-        "controlled": asdict(control.controlled),
-        "stays_soft": asdict(control.stays_soft),
-    }
+        "settling": control.settling, "settling_of_nominal": control.settling_of_nominal,
+        "controlled": asdict(control.controlled), "stays_soft": asdict(control.stays_soft),
+    }  # fmt: skip
 
 
 def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> dict[str, Any]:
@@ -309,13 +302,10 @@ def _entry(name: str, value: float, answer: StudyResult, table: Table, find_reco
     return {
         **numbers.number_entry(value, table.unit(name), (known.low, known.high)),
         "kind": "input" if isinstance(row, Input) else "output",
-        "status": known.status,
-        "source": known.source,
-        "group": row.group,
-        "description": row.description,
+        "status": known.status, "source": known.source, "group": row.group, "description": row.description,
         "note": notes(design, table).get(name, ""),
         "idealized": ", ".join(each.text for each in answer.idealizations if name in each.as_drawn),
-    }
+    }  # fmt: skip
 
 
 def results_csv(entries: Mapping[str, dict[str, Any]], intervals: Mapping[str, dict[str, Any]] | None = None) -> str:

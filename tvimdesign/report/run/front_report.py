@@ -132,12 +132,10 @@ def plain(front: Front, names: Sequence[str], table: Table, above: Sequence[tupl
         "points": [entry(number, point) for number, point in enumerate(front.points, start=1)],
         "knee": None if front.knee is None else front.knee + 1,
         "in_words": in_words(front, table),
-        "spread": front.spread,
-        "sought": front.sought,
-        "dominated": front.dominated,
+        "spread": front.spread, "sought": front.sought, "dominated": front.dominated,
         "failures": [{"where": failure.where, "reason": failure.reason} for failure in front.failures],
         "notes": list(front.notes),
-    }
+    }  # fmt: skip
 
 
 def in_words(front: Front, table: Table) -> list[str]:
