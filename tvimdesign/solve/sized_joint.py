@@ -37,7 +37,7 @@ _AN_EIGHTH = 0.125  # Usual stiffness [N*m/rad] over the torque
 
 
 class NoHardware(NamedTuple):
-    """Why no hardware fits a joint, and the nearest numbers that were tried and have some."""
+    """Refusal of a joint that no hardware fits, with the nearest numbers that were tried and have some."""
 
     longest: Extreme | None  # Largest stroke [rad] at the diameter, if that is too short
     least: Extreme | None  # Least diameter [m] of the next larger hardware

@@ -46,14 +46,11 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
             {"output": check["output"], "value": check["si"]["value"], "because": check["origin"]}
             for check in results.get("warnings", ())
         ],
-        "verdict": results.get("verdict", ""),
-        "above_rating": list(design.above_rating),
-        "accepting": list(design.accepting),
-        "soft": soft_in_words(design, table),
-        "starts": search["count"],
-        "converged": search["converged"],
+        "verdict": results.get("verdict", ""), "soft": soft_in_words(design, table),
+        "above_rating": list(design.above_rating), "accepting": list(design.accepting),
+        "starts": search["count"], "converged": search["converged"],
         "optima": [{"objective": entry["objective"], "variables": entry["at"]} for entry in search["optima"]],
-    }
+    }  # fmt: skip
 
 
 def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:
@@ -163,10 +160,7 @@ class ComparisonJob:
         for second in others:
             front = self._fronts.seek((first, second), self.points)
             entry = all_finite({
-                "first": first,
-                "second": second,
-                "notes": front.notes,
-                "dominated": front.dominated,
+                "first": first, "second": second, "notes": front.notes, "dominated": front.dominated,
                 "failures": [asdict(failure) for failure in front.failures],
                 "points": [
                     {"where": point.where, "values": point.values, "current_profiles": point.current_profiles}

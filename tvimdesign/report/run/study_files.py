@@ -149,10 +149,10 @@ def sized_text(
     """
     from tvimdesign.solve.sized_joint import find_hardware
 
-    found = find_hardware(task, name, progress, room=room)
-    if isinstance(found, str):
-        return found
-    raise InfeasibleError(refusal(task, name, found))
+    text = find_hardware(task, name, progress, room=room)
+    if isinstance(text, str):
+        return text
+    raise InfeasibleError(refusal(task, name, text))
 
 
 def refusal(task: JointTask, name: str, none: NoHardware) -> str:

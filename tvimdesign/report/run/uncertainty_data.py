@@ -43,10 +43,10 @@ def uncertainty_data(
     """
     table = study.table
     shown = [name for name in FIRST_SCREEN if name.partition("@")[0] in table.by_name]
-    found = uncertainty_at(design, study, shown, modules, deadline)
+    uncertainty = uncertainty_at(design, study, shown, modules, deadline)
     intervals = {}
-    for name, interval in found.intervals.items():
-        unit, before = table.unit(name), found.before.get(name)
+    for name, interval in uncertainty.intervals.items():
+        unit, before = table.unit(name), uncertainty.before.get(name)
         intervals[name] = {
             **number_entry(interval.nominal, unit, (interval.low, interval.high)),
             "one_at_a_time": number_entry(interval.nominal, unit, interval.one_at_a_time),
@@ -54,19 +54,17 @@ def uncertainty_data(
             "to_halve": list(interval.to_halve),
             "before": None if before is None else number_entry(interval.nominal, unit, before),
         }
-    needs = ""
-    if found.need:
-        name, sense, end = found.need
-        needs = f"{label(name)} {sense} {with_unit(end, table.unit(name), 3)}"
+    need = uncertainty.need
+    needs = f"{label(need.input)} {need.sense} {with_unit(need.end, table.unit(need.input), 3)}" if need else ""
     return {
-        "parts_yield": found.together and asdict(found.together),
+        "parts_yield": uncertainty.together and asdict(uncertainty.together),
         "modules": modules,
-        "limits": found.limits,
-        "left_out": list(found.left_out),
+        "limits": uncertainty.limits,
+        "left_out": list(uncertainty.left_out),
         "tolerances": "study" if study.tolerances else "standard",
-        "ranges_hold": found.holds and asdict(found.holds),
+        "ranges_hold": uncertainty.holds and asdict(uncertainty.holds),
         "draws": DRAWS,
-        "held": found.held,
+        "held": uncertainty.held,
         "intervals": intervals,
         "unmeasured": [
             {
@@ -74,7 +72,7 @@ def uncertainty_data(
                 **number_entry(moved.value, table.unit(moved.name), (moved.low, moved.high)),
                 "status": moved.status,
             }
-            for moved in found.unmeasured
+            for moved in uncertainty.unmeasured
         ],
         "needs": needs,
     }
@@ -163,6 +161,6 @@ def lost_in_words(answer: StudyResult) -> list[str]:
     """Return the limits that too many modules violate, each with the tolerances that carry its spread."""
     texts = []
     for lost in answer.yield_reached.lost_to if answer.yield_reached else ():
-        named = ", ".join(f"{name} ({100.0 * share:.0f} %)" for name, share in lost.carriers.items() if share >= _CARRIED)
-        texts.append(f"{lost.text}, met by {percent(lost.share)}{f', spread by {named}' if named else ''}")
+        named = [f"{name} ({100.0 * share:.0f} %)" for name, share in lost.carriers.items() if share >= _CARRIED]
+        texts.append(f"{lost.text}, met by {percent(lost.share)}{', spread by ' if named else ''}{', '.join(named)}")
     return texts
