@@ -228,11 +228,10 @@ class Engine:
         answered = answer_study(
             tree, progress, search=self._near if stage == "exact" else partial(optimize, eases=True)
         )
-        result, table = answered.result, answered.study.table
-        design = result.design
+        result, design = answered.result, answered.result.design
         known = given(answered.study)
         shown = shown_design(answered.study, free, known, design.values)
-        shown["status"] = "" if result.has_design else complaint(result, table)
+        shown["status"] = "" if result.has_design else complaint(result)
         if result.has_design and state.way == "optimize" and answered.study.robust:
             progress("computing yield and intervals over the assumed values")
             with suppress(TvimError):

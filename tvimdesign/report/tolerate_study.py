@@ -268,7 +268,7 @@ def _module(source: Path, study: Study, progress: Progress) -> tuple[ResolvedMod
     progress("searching for the optimum")
     result = answer(study, progress)
     if not result.has_design:
-        raise InfeasibleError(complaint(result, study.table))
+        raise InfeasibleError(complaint(result))
     robust = ", robust as it asks" if study.robust else ""
     notes = [f"Module: the optimum of {source}{robust}.", *result.design.rating_notes, *notes]
     return resolve_design(result.design), result.design, notes

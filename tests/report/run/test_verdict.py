@@ -43,9 +43,7 @@ WALL = {
     "held": {"hole_margin >=": 0.3, **FOUR["held"]},
     "intervals": {"hole_margin": {"shares": {"minimum_wall": 0.8}}, **FOUR["intervals"]},
 }
-RUBS = RunWarning(
-    advice_text("friction_share", 13.7, "", table_for("shear")), "", "grave", "it does not return by its springs"
-)
+RUBS = RunWarning(advice_text("friction_share", 13.7, "", "1"), "", "grave", "it does not return by its springs")
 GRAVE = RunWarning("pin fillet safety is 0.93: pins may crack at their fillet", "", "grave")
 HOT = {"output": "joint_stiffness@hot", "sense": "<=", "limit": 1.5}
 COOL = {"softened_temperature": 340.15, "temperature@hot": 373.15, "softened_stiffness": 2.5, "softened_range": 50.0}

@@ -232,7 +232,7 @@ def test_a_conflict_with_a_yield_names_places_with_margins():
     text = ALGEBRAIC.replace('">= 5 N.m/rad"}', '">= 5 N.m/rad", springs_mass: "<= 1 g"}')
     for robust_line, margins in (("", False), ("robust: {yield: 95 %}\n", True)):
         study = read_study_text(f"{text}{robust_line}", "a test")
-        words = complaint(answer(study), study.table)
+        words = complaint(answer(study))
         assert "cannot hold" in words
         assert ("g with 2.5 deviations of margin" in words) == margins
         assert "The values are nominal" not in words
@@ -244,7 +244,7 @@ def test_more_deviations_than_a_band_has_room_for_are_reported():
     study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
     result = answer(study)
     assert not result.has_design
-    assert "(`robust`): ask for fewer, or spread less" in complaint(result, study.table)
+    assert "(`robust`): ask for fewer, or spread less" in complaint(result)
 
 
 def test_few_modules_reveal_a_low_yield_and_more_continue_them():

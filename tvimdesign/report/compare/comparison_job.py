@@ -19,7 +19,6 @@ from typing import Any
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent, line_writer
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
-from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.output.tables import results, soft_in_words
 from tvimdesign.report.output.terminal import Progress
@@ -36,7 +35,7 @@ from tvimdesign.study.resolve import record_checks
 from tvimdesign.study.tree import StudyTree, tree_of_file
 
 
-def compared_design(design: Design, results: Mapping[str, Any], table: Table) -> dict[str, Any]:
+def compared_design(design: Design, results: Mapping[str, Any]) -> dict[str, Any]:
     """Return a design with its violated limits, warnings and search; `results` as results.json."""
     search = results.get("starts") or {"count": 0, "converged": 0, "optima": []}
     return {
@@ -46,14 +45,14 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
             {"output": check["output"], "value": check["si"]["value"], "because": check["origin"]}
             for check in results.get("warnings", ())
         ],
-        "verdict": results.get("verdict", ""), "soft": soft_in_words(design, table),
+        "verdict": results.get("verdict", ""), "soft": soft_in_words(design),
         "above_rating": list(design.above_rating), "accepting": list(design.accepting),
         "starts": search["count"], "converged": search["converged"],
         "optima": [{"objective": entry["objective"], "variables": entry["at"]} for entry in search["optima"]],
     }  # fmt: skip
 
 
-def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:
+def finished_run(source: Path, which: str) -> dict[str, Any]:
     """Return what a comparison of `which` designs needs of a finished run, by its design.json. Raises InputError."""
     design = read_design(source)
     path = source.parent / "results.json"
@@ -63,7 +62,7 @@ def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:
         results = {}
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from error
-    return {**empty_answer(), which: compared_design(design, results, table)}
+    return {**empty_answer(), which: compared_design(design, results)}
 
 
 def empty_answer() -> dict[str, Any]:
@@ -71,9 +70,9 @@ def empty_answer() -> dict[str, Any]:
     return {"fronts": [], "seconds": {}, "troubles": []}
 
 
-def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
+def front_outputs(study: Study) -> tuple[str, str, str]:
     """Return the time, mass and size that fronts are drawn over: those the study minimises, else the usual ones."""
-    times = [name for name in study.minimize if table.unit(name) == "s"]
+    times = [name for name in study.minimize if study.table.unit(name) == "s"]
     sizes = [name for name in study.minimize if name in {"envelope_diameter", "envelope_volume", "envelope_height"}]
     return (times or ["response_time"])[0], "module_mass", (sizes or ["envelope_diameter"])[0]
 
@@ -136,12 +135,12 @@ class ComparisonJob:
     def _optimised(self) -> StudyResult:
         starts = [anchored_search.at_its_start(study) for study in (self.study, *self.others)]
         common = anchored_search.common(starts)
-        objectives = front_outputs(self.study, self.table) if self.points else ()
+        objectives = front_outputs(self.study) if self.points else ()
         answered = answer(self.study, self.say, common, self._fronts.keep, objectives)
         if not answered.has_design:
-            raise InfeasibleError(complaint(answered, self.table))
+            raise InfeasibleError(complaint(answered))
         self.answer["optimised"] = self._compared(answered)
-        if refused := above_rating(answered, self.table):
+        if refused := above_rating(answered):
             self.answer["troubles"].append(
                 {"step": "ratings", "error": refused, "exit_code": AboveRatingError.exit_code}
             )
@@ -150,13 +149,13 @@ class ComparisonJob:
         return answered
 
     def _compared(self, answered: StudyResult) -> dict[str, Any]:
-        reported = results(answered, self.table) | {"starts": starts_reported(answered)}
-        return compared_design(answered.design, reported, self.table)
+        reported = results(answered) | {"starts": starts_reported(answered)}
+        return compared_design(answered.design, reported)
 
     def _trade(self, best: StudyResult) -> None:
         assert best.solution is not None
         optimum = self._fronts.begin(best.solution, self.say)
-        first, *others = front_outputs(self.study, self.table)
+        first, *others = front_outputs(self.study)
         for second in others:
             front = self._fronts.seek((first, second), self.points)
             entry = all_finite({

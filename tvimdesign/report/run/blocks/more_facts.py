@@ -8,7 +8,6 @@ import numpy as np
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.cad.assembly.heater_leads import temperatures_in_order
-from tvimdesign.device import Table
 from tvimdesign.report.output.choices_tables import choice_text, own_choices
 from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, percent, range_text, with_unit
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
@@ -27,7 +26,7 @@ STALLS = 3.5
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
     """Return what `--full` and the page add: thresholds, cooling, idealizations, choices, yield."""
-    table, value = answer.design.table, Values(answer, uncertainty)
+    value = Values(answer, uncertainty)
     facts = [
         Fact("Soft", _soft(answer)),
         Fact("Stiff", list(_stiff(value, answer))),
@@ -39,8 +38,8 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
         Fact("Cost", list(_cost(value, answer.design.choices))),
-        *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
-        *chosen_fact(answer), *_current(answer), *front_fact(front, table),
+        *(Fact("Idealized ~", [_idealized(idealization, answer)]) for idealization in answer.idealizations),
+        *chosen_fact(answer), *_current(answer), *front_fact(answer, front),
         *_yield(answer, uncertainty),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
@@ -81,12 +80,12 @@ def _soft(answer: StudyResult) -> list[str]:
     stalling = stalling_in_words(answer.histories.get("softening"), answer.design.values["softening_time"])
     notes = ("dynamic stiffness counts damping, too", "plausible cases have their own value at the hot point",
              "the joint softens as slices of PCL melt, before the coldest has")  # fmt: skip
-    return [soft_in_words(answer.design, answer.design.table), *notes, *filter(None, [stalling])]
+    return [soft_in_words(answer.design), *notes, *filter(None, [stalling])]
 
 
 def _stiff(value: Values, answer: StudyResult) -> Iterator[str]:
     """Say what stiff means, when the layer is frozen, and what cooling by current buys."""
-    yield stiff_in_words(answer.design, answer.design.table)
+    yield stiff_in_words(answer.design)
     yield f"frozen {value('frozen_time')} after heating stops"
     if not answer.cooling.able:
         yield "cooled by the air alone: this heater cannot cool"
@@ -127,7 +126,8 @@ def _accepts(answer: StudyResult) -> Iterator[str]:
         yield f"{', '.join(answer.accepted_in_vain)}: not needed, the design is within the rating"
 
 
-def _idealized(idealization: Any, answer: StudyResult, table: Table) -> str:
+def _idealized(idealization: Any, answer: StudyResult) -> str:
+    table = answer.design.table
     required = [limit["output"] for limit in answer.design.study["require"]]
     headlines = ["spring_stiffness", "least_spring_stiffness", *(row.name for row in table.outputs if row.headline)]
     first = dict.fromkeys(name for name in (*required, *headlines) if name in idealization.as_drawn)
@@ -141,13 +141,14 @@ def _idealized(idealization: Any, answer: StudyResult, table: Table) -> str:
     return f"{idealization.text}: {idealization.leaves_out} ({rows}){''.join(shown)}"
 
 
-def front_fact(front: Any, table: Table) -> list[Fact]:
+def front_fact(answer: StudyResult, front: Any) -> list[Fact]:
     """Return the spans of the front, if the study asks for one."""
     if front is None or not front.points:
         return []
     spans = []
     for name in front.outputs:
-        values, unit = [from_si(point.values[name], table.unit(name)) for point in front.points], table.unit(name)
+        unit = answer.design.table.unit(name)
+        values = [from_si(point.values[name], unit) for point in front.points]
         spans.append(f"{label(name)} {ends_text(min(values), max(values))} {pretty(unit)}".rstrip())
     knee = [] if front.knee is None else [f"knee: point {front.knee + 1}"]
     return [Fact("Front", [f"{len(front.points)} designs", *spans, *knee], listing=True)]

@@ -34,7 +34,7 @@ def text_sections(answered: AnsweredStudy) -> list[Section]:
 
 def conflict_points(answered: AnsweredStudy) -> Points:
     """Return what cannot hold together, what is violated least, and what to do."""
-    return Points(complaint(answered.result, answered.study.table).splitlines()[1:])
+    return Points(complaint(answered.result).splitlines()[1:])
 
 
 def module_section(answered: AnsweredStudy) -> Section:

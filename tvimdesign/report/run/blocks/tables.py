@@ -62,9 +62,9 @@ def points_grid(answer: StudyResult) -> Grid:
     rows = []
     for row in shown:
         named = [f"{row.name}@{point}" for point in points]
-        values = [value_text(answer, name, table) for name in named]
+        values = [value_text(answer, name) for name in named]
         name = at_end.get(row.name) or getattr(row, "at_end", "")
-        end = value_text(answer, name, table) if name else ""
+        end = value_text(answer, name) if name else ""
         rows.append((f"{row.name}{mark(named[0], answer)}", end, *values, pretty(row.unit), row.description))
     unreached = unreached_points(answer.design.values)
     heads = ("", "heating ends", *(f"{point} (PCL stays cooler)" if point in unreached else point for point in points))
@@ -77,8 +77,8 @@ def module_grid(answer: StudyResult) -> Grid:
     hot_unreached = "hot" in unreached_points(answer.design.values)
     shown = [row for row in table.outputs if row.headline and not row.per_point and row.exists(answer.design.choices)]
     rows = [
-        (row.group, f"{row.name}{mark(row.name, answer)}", value_text(answer, row.name, table), pretty(row.unit),
-         meaning(row.name, answer.design, table))
+        (row.group, f"{row.name}{mark(row.name, answer)}", value_text(answer, row.name), pretty(row.unit),
+         meaning(row.name, answer.design))
         for row in shown if not (hot_unreached and row.at_end)
     ]  # fmt: skip
     return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
@@ -127,7 +127,7 @@ def profile_grid(answer: StudyResult) -> Grid:
         values = [*([best.values[name]] if best else []), default]
         own = "profile" if name in defaults else in_unit(answer.design.value(name), unit)
         texts = (own, *(in_unit(value, unit) for value in values))
-        rows.append((name, *texts, pretty(unit), meaning(name, answer.design, table)))
+        rows.append((name, *texts, pretty(unit), meaning(name, answer.design)))
     heads = ("", "profile", *(["best constant"] if best else []), "default", "unit", "meaning")
     return grid("What letting the current change buys", heads, rows, right=(1, 2, 3) if best else (1, 2))
 
@@ -145,7 +145,7 @@ def checks_grid(answer: StudyResult) -> Grid:
         stands = "open" if check in answer.undecided else stands
         because = "the study" if check.origin == "require" else check.origin
         margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least
-        value, unit = value_text(answer, check.output, table, rounded=True), pretty(table.unit(check.output))
+        value, unit = value_text(answer, check.output, rounded=True), pretty(table.unit(check.output))
         rows.append((stands, check.text, value, unit, margin, because))
     heads = ("", "limit", "value", "unit", "margin", "asked by, or what a violation means")
     return grid("Limits", heads, rows, right=(2, 4), code=(), toned=(0,), note=note)

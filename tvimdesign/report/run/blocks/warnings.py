@@ -10,7 +10,6 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.record import own_data, plain_data
 from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.cad.assembly.heater_leads import fuse_to_ask_for
-from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import held_by, label, with_unit
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.report.run.reasons import endings
@@ -145,13 +144,13 @@ def _of_advice(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarning]:
         cure = cure or filled(_hint(check.output).get("ask", ""), {"fuse": fuse_to_ask_for(answer.design)})
         if check.output in above:
             cure = f"{cure} or accept: [{check.output}]".removeprefix(" or ")
-        text = advice_text(check.output, check.value, check.origin, table)
+        text = advice_text(check.output, check.value, check.origin, table.unit(check.output))
         yield RunWarning(text, cure, levels[check.output], _hint(check.output, check.value).get("but", ""))
 
 
-def advice_text(output: str, value: float, origin: str, table: Table) -> str:
+def advice_text(output: str, value: float, origin: str, unit: str) -> str:
     """Return advice or a rating that is not followed, with its value (SI) and its reason, `origin` or a shorter one."""
-    hint, shown = _hint(output, value), format_quantity(value, table.unit(output), 3)
+    hint, shown = _hint(output, value), format_quantity(value, unit, 3)
     if "text" in hint:
         return filled(hint["text"], {"size": shown.lstrip("-"), "share": f"{100.0 * abs(value):.2g} %"})
     return f"{label(output)} is {shown}: {hint.get('say', origin)}"
@@ -199,12 +198,12 @@ def missed_points(answer: StudyResult) -> dict[str, str]:
 
     An output that is not known there counts as missed.
     """
-    values, table = answer.design.values, answer.design.table
+    values = answer.design.values
     return {
         point: limit["output"]
         for point in unreached_points(values)
         for limit in answer.design.study["require"]
-        if _misses(limit, point, values, table)
+        if _misses(limit, point, answer.design)
     }
 
 
@@ -215,12 +214,12 @@ def unreached_points(values: Mapping[str, float]) -> list[str]:
     return [point for point, temperature in temperatures.items() if temperature > reached + TEMPERATURE]
 
 
-def _misses(limit: Mapping[str, Any], point: str, values: Mapping[str, float], table: Table) -> bool:
+def _misses(limit: Mapping[str, Any], point: str, design: Design) -> bool:
     """Return whether a requirement at a point is not met when heating stops; True if that is not known."""
-    name, at_end = limit["output"], table.output(limit["output"]).at_end
+    name, at_end = limit["output"], design.table.output(limit["output"]).at_end
     if (name.partition("@")[2] or (at_end and "hot")) != point:
         return False
     if not at_end or point != "hot":
         return True
-    over = values[at_end] - limit["limit"]
+    over = design.values[at_end] - limit["limit"]
     return not (-over if limit["sense"] == ">=" else over) <= CYCLE_TOLERANCE * abs(limit["limit"])
