@@ -22,10 +22,7 @@ STOPS = 2  # Teeth of the rotor, each between two posts
 SLIVER = 1e-4  # Size [m] that posts have where there is no room for them, so that the search may pass there
 
 
-@places.output("rad")
-def stop_angle(m: Module) -> Scalar:
-    """Angle from rest at which the rotor meets its stops, to either side."""
-    return m.stroke + m.stop_margin
+places.formulas("hard_stops")
 
 
 @places.output("mm")
@@ -39,24 +36,6 @@ def stop_width(m: Module) -> Scalar:
     """Radial width of the stops' faces: `stop_depth`, or what the feet's holes in the cover leave."""
     room = m.placement_radius - m.mount_boss_radius - m.stop_inner_radius
     return np.fmax(evened_least(m.stop_depth, room), SLIVER)
-
-
-@places.output("mm")
-def stop_outer_radius(m: Module) -> Scalar:
-    """Outer radius of the stops' posts and of the rotor's teeth."""
-    return m.stop_inner_radius + m.stop_width
-
-
-@places.output("mm")
-def stop_contact_radius(m: Module) -> Scalar:
-    """Radius of the middle of the stops' faces."""
-    return m.stop_inner_radius + 0.5 * m.stop_width
-
-
-@places.output("deg")
-def stop_tooth_span(m: Module) -> Scalar:
-    """Angle that a tooth of the rotor covers."""
-    return m.stop_tooth_width / m.stop_contact_radius
 
 
 @places.helper(sprung=True)
@@ -77,12 +56,6 @@ def stop_post_span(m: Module) -> Scalar:
     room = np.pi / m.spring_count - m.stop_spring_angle - m.stop_angle - 0.5 * m.stop_tooth_span
     length = evened_least(m.stop_length, room * m.stop_contact_radius)
     return np.fmax(length, SLIVER) / m.stop_contact_radius
-
-
-@places.output("mm")
-def stop_post_length(m: Module) -> Scalar:
-    """Length of a post along the middle of its faces."""
-    return m.stop_post_span * m.stop_contact_radius
 
 
 @weights.helper()

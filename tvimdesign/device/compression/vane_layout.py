@@ -21,10 +21,7 @@ def rotor_bottom_level(m: Module) -> Scalar:
     return m.block_height + 2.0 * m.running_clearance
 
 
-@places.output("mm")
-def vane_height(m: Module) -> Scalar:
-    """Height of the vanes of rotor and housing, which keep a running clearance from floor and plate."""
-    return m.block_height + m.running_clearance
+places.formulas("vane_layout")
 
 
 @places.helper()
@@ -34,12 +31,6 @@ def plate_lean(m: Module) -> Scalar:
 
 
 places.same("pcl_depth", "block_depth", "Way of heat and load through the PCL [m]")
-
-
-@places.output("mm")
-def block_width(m: Module) -> Scalar:
-    """Radial width of blocks, pads and vanes."""
-    return m.pcl_outer_radius - m.pcl_inner_radius
 
 
 @places.output("mm", hidden=True)
@@ -52,18 +43,6 @@ def pocket_inner_radius(m: Module) -> Scalar:
 def pocket_outer_radius(m: Module) -> Scalar:
     """Outer radius of the pads' pockets: open there, as the vanes are."""
     return m.pcl_outer_radius
-
-
-@places.output("deg")
-def block_angle(m: Module) -> Scalar:
-    """Angle each block covers."""
-    return m.block_depth / m.pcl_mean_radius
-
-
-@places.output("deg")
-def rotor_vane_angle(m: Module) -> Scalar:
-    """Angle each vane of the rotor covers."""
-    return m.vane_thickness / m.pcl_mean_radius
 
 
 @places.output("deg")
@@ -216,9 +195,3 @@ def rotor_vanes(m: Module) -> Section:
 def rotor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the rotor with its vanes, less the recesses for liners."""
     return m.bare_rotor_moments.plus(m.rotor_vanes.times(m.vane_height)) - m.liner_recess
-
-
-@places.output("mm")
-def freezing_travel(m: Module) -> Scalar:
-    """Axial travel of the rotor as the PCL freezes: zero, blocks have clearance above and below."""
-    return 0.0 * m.melting_growth

@@ -52,16 +52,7 @@ def lead_volume(m: Module) -> Scalar:
     return 0.0 * m.lead_diameter
 
 
-@tile_places.output("mm")
-def tile_spacing(m: Module) -> Scalar:
-    """Distance from one tile of a row to the next."""
-    return m.block_width / m.tiles_per_block
-
-
-@tile_places.output("mm")
-def tile_window(m: Module) -> Scalar:
-    """Width of a tile that its slot leaves open."""
-    return m.slot_share * m.heater_length
+tile_places.formulas("vane_tiles")
 
 
 @tile_places.output("mm")
@@ -75,12 +66,6 @@ def tile_slot_radius(m: Module) -> Scalar:
 def tile_slot_pitch(m: Module) -> Scalar:
     """Distance of a vane's slots along its middle."""
     return m.tile_spacing * np.cos(0.5 * m.housing_vane_angle)
-
-
-@tile_places.output("mm^2")
-def tile_seat_area(m: Module) -> Scalar:
-    """Area with which one tile bears on its vane: all of it but the slot's."""
-    return m.heater_length * m.heater_width - m.tile_window * m.slot_height
 
 
 tile_rules.margins("vane_tiles.tile_rules")

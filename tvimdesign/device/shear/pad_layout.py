@@ -88,22 +88,7 @@ rules = QuantityGroup("Gaps")
 holds = QuantityGroup("Impedance")
 
 
-@places.output("mm")
-def pocket_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the pads' pockets."""
-    return m.pcl_inner_radius - m.heater_gap
-
-
-@places.output("mm")
-def pocket_outer_radius(m: Module) -> Scalar:
-    """Outer radius of the pads' pockets."""
-    return m.pcl_outer_radius + m.heater_gap
-
-
-@places.output("deg")
-def pocket_span(m: Module) -> Scalar:
-    """Angle a pad's pocket covers: at the arc's inner radius it is a slip clearance longer at each end."""
-    return m.arc_span + 2.0 * m.slip_clearance / m.pcl_inner_radius
+places.formulas("pad_layout")
 
 
 @rules.gap("the floor between two pads' pockets is thinner than can be made: shorter arcs")
@@ -156,12 +141,6 @@ def thermistor_count(m: Module) -> Scalar:
 def thermistor_seat_diameter(m: Module) -> Scalar:
     """Diameter of the hole for the thermistor at the end of an arc; zero without, and where tiles leave it room."""
     return ROOM * m.thermistor_diameter if m.heater_form == CUT else 0.0
-
-
-@places.output("mm")
-def thermistor_seat_radius(m: Module) -> Scalar:
-    """Distance of that hole from the axis: the middle of the arc's width."""
-    return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius)
 
 
 @weights.helper(default=NOTHING)

@@ -164,6 +164,12 @@ class QuantityGroup:
             fields[_LIMITED[why]] = (at_least(entry.get("at_least", 0.0), entry[why]),)
             self._add_formula(Output, name, entry, **self._featured(fields))
 
+    def formulas(self, key: str) -> None:
+        """Add the outputs that `formulas.yaml` lists under a key."""
+        for name, entry in _all_formulas()[key].items():
+            fields = {word: entry[word] for word in ("headline", "sprung") if word in entry}
+            self._add_formula(Output, name, entry, **self._featured(fields))
+
     def phase_values(self, key: str) -> None:
         """Add what `phase_values.yaml` lists under a key, read off a phase of the working cycle."""
         for name, entry in _all_phase_values()[key].items():
@@ -357,4 +363,5 @@ def directions() -> dict[str, Literal["less", "more"]]:
 _all_inputs = partial(own_data, __file__, "inputs.yaml")  # The inputs by group and name
 _all_choices = partial(own_data, __file__, "choices.yaml")  # The choices and numbers of records by key and name
 _all_margins = partial(own_data, __file__, "margins.yaml")  # The margins by key and name
+_all_formulas = partial(own_data, __file__, "formulas.yaml")  # The plain outputs by key and name
 _all_phase_values = partial(own_data, __file__, "phase_values.yaml")  # What is read off phases by key and name

@@ -20,10 +20,7 @@ quantities = QuantityGroup("Lost motion")
 quantities.inputs()
 
 
-@quantities.output("N", sprung=True)
-def pin_force(m: Module) -> Scalar:
-    """Force of a spring's leg on its pin at rest."""
-    return m.held_spring_rate * m.preload_angle / m.leg_arm
+quantities.formulas("lost_motion")
 
 
 @quantities.helper(sprung=True)
@@ -60,18 +57,6 @@ def pin_wear(m: Module) -> Scalar:
     slip = pin_slip(m.pin_radius, m.placement_radius, m.leg_offset, m.pin_diameter)
     volume = contacts.worn_volume(m.leg_wear_coefficient, m.pin_force, 4.0 * WEAR_STROKES * m.stroke * slip)
     return contacts.crossed_groove_depth(volume, 0.5 * m.wire_diameter, 0.5 * m.pin_diameter)
-
-
-@quantities.output("rad", sprung=True)
-def friction_play(m: Module) -> Scalar:
-    """Angle from rest within which the springs do not overcome the friction on their pins, the PCL molten."""
-    return m.pin_friction_torque / m.spring_stiffness
-
-
-@quantities.output("N*m")
-def friction_torque(m: Module) -> Scalar:
-    """Torque by which pins, bore or bearings and wave spring resist a force at the link's end, at full stroke."""
-    return m.pin_friction_torque + m.bearing_friction_torque + m.preload_friction_torque
 
 
 @quantities.output("1", advice=(at_most(0.5, "friction holds the soft joint far off its rest"),), sprung=True)
