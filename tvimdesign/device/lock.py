@@ -78,12 +78,6 @@ def turned_overlap(m: Module) -> Scalar:
     return 1.0 - m.stroke / m.arc_span
 
 
-@turns.helper()
-def bearing_polar_moment(m: Module) -> Scalar:
-    """Polar moment of what bears of the layer [m^4], if it has frozen at the end of the stroke."""
-    return m.layer_polar_moment * m.turned_overlap
-
-
 @turns.output("N*m", headline=True)
 def layer_drag_torque(m: Module) -> Scalar:
     """Torque of the molten layer against a steady turn, at the hot point."""

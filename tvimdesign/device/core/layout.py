@@ -13,8 +13,6 @@ quantities = QuantityGroup("Layout")
 
 materials.choices("materials")
 quantities.inputs()
-
-
 quantities.formulas("layout")
 
 
@@ -47,12 +45,6 @@ def leg_arm(m: Module) -> Scalar:
 
 
 @quantities.output("mm")
-def housing_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the housing wall: it clears the springs, and leaves adjusters their pockets."""
-    return m.placement_radius + np.fmax(m.spring_reach + m.radial_clearance, m.adjuster_radius + m.slip_clearance)
-
-
-@quantities.output("mm")
 def link_length(m: Module) -> Scalar:
     """Distance of the output link's end hole from the axis; the link's round end is flush with the housing."""
     return m.housing_outer_radius - m.link_half_width
@@ -71,21 +63,9 @@ def helix_slope(m: Module) -> Scalar:
 
 
 @quantities.output("mm", sprung=True)
-def coil_start_level(m: Module) -> Scalar:
-    """Level of the wire's centre where the coils start; the tang's bend below it ends on the floor."""
-    return m.tang_bend_radius / np.sqrt(1.0 + m.helix_slope**2)
-
-
-@quantities.output("mm", sprung=True)
 def coil_end_level(m: Module) -> Scalar:
     """Level of the wire's centre where the coils of the preloaded spring end and the rotor-side leg begins."""
     return m.coil_start_level + m.coil_pitch * (m.coil_count + m.preload_angle / (2.0 * np.pi))
-
-
-@quantities.helper(sprung=True)
-def room_below_legs(m: Module) -> Scalar:
-    """Height between the rotor plate and the legs less a running clearance [m]."""
-    return m.coil_end_level - 0.5 * m.wire_diameter - m.rotor_top_level - m.running_clearance
 
 
 LEAST_FILLET = 1e-4

@@ -129,12 +129,6 @@ def pin_fillets(m: Module) -> Section:
     return Section(of_pin.area, of_pin.polar + of_pin.area * m.pin_radius**2).times(m.spring_count)
 
 
-@quantities.helper(sprung=True)
-def springs_inertia(m: Module) -> Scalar:
-    """Moment of inertia about the axis of springs and adjusters, as rings about the springs' axes."""
-    return (m.springs_mass + m.adjusters_mass) * (m.placement_radius**2 + 0.25 * m.coil_diameter**2)
-
-
 def _core_drill_points(m: Module) -> Section:
     """Return the volume and its polar moment about the axis, of the points of the rotor's blind holes; nothing where
     printed."""

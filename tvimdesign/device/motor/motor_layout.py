@@ -34,31 +34,13 @@ quantities.formulas("motor_layout")
 
 
 @quantities.output("mm")
-def motor_corner_radius(m: Module) -> Scalar:
-    """Radius of the corners between the hub's disc and its spokes, which are as deep as it; zero without a motor."""
-    return np.fmax(m.corner_radius, m.motor_plate_thickness / m.corner_depth_ratio)
-
-
-@quantities.output("mm")
 def motor_sink_radius(m: Module) -> Scalar:
     """Radius of the retainer's counterbore for its screw's head, and for a magnet below it; zero without a motor."""
     head = 0.5 * m.motor_screw_head + m.motor_sink_clearance
     return head if m.angle_sensor is None else np.fmax(head, m.angle_sensor.magnet_radius + m.slip_clearance)
 
 
-@quantities.output("mm", requires=WITH_ENCODER)
-def encoder_recess_radius(m: Module) -> Scalar:
-    """Radius of the recess for the encoder's board; zero without an encoder."""
-    return m.angle_sensor.board_radius + m.slip_clearance
-
-
 # --- levels: zero without a motor ------------------------------------------------------------------------------------
-
-
-@quantities.output("mm", requires=WITH_ENCODER)
-def magnet_room(m: Module) -> Scalar:
-    """Height of magnet and gap below the head of the retainer's screw; zero without an encoder."""
-    return m.angle_sensor.magnet_height + m.encoder_magnet_spacing
 
 
 @quantities.output("mm")

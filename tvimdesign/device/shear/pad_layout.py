@@ -49,22 +49,13 @@ def tile_radius(m: Module) -> Scalar:
     return 0.5 * (m.pcl_inner_radius + m.tile_reach)
 
 
-@tile_places.output("deg")
-def lead_angle(m: Module) -> Scalar:
-    """Angle at each end of an arc that is left to a thermistor's hole."""
-    return (m.lead_hole_diameter + 2.0 * m.tile_clearance) / m.pcl_inner_radius
+tile_places.formulas("pad_layout.tile_places")
 
 
 @tile_places.output("deg")
 def tile_pitch(m: Module) -> Scalar:
     """Angle from one tile of an arc to the next."""
     return (m.arc_span - 2.0 * m.lead_angle) / m.tiles_per_arc
-
-
-@tile_places.output("mm")
-def cold_plate_length(m: Module) -> Scalar:
-    """Length of a tile's colder plate, which lies on the ledges of its window: a porch shorter than the other one."""
-    return m.heater_length - m.heater_porch
 
 
 @tile_weights.output("mm^3")

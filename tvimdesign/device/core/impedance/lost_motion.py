@@ -18,8 +18,6 @@ from tvimdesign.physics.spring import pin_slip
 quantities = QuantityGroup("Lost motion")
 
 quantities.inputs()
-
-
 quantities.formulas("lost_motion")
 
 
@@ -90,12 +88,6 @@ def core_support(m: Module) -> Support:
     # Loose in the seat outside, on the journal inside, and between the rings.
     play = 2.0 * m.seat_clearance + 0.5 * m.bearing_internal_clearance
     return Support(play, length - m.bearing_width, m.hub_top_level - 0.5 * m.bearing_width, np.inf)
-
-
-@quantities.output("rad")
-def core_lean(m: Module) -> Scalar:
-    """Angle by which the core can lean to one side in its bore or bearings."""
-    return np.fmin(2.0 * m.core_support.clearance / m.core_support.spread, m.core_support.tilt)
 
 
 @quantities.output("rad")
