@@ -85,7 +85,7 @@ def plain(design: Path, out: Path) -> None:
 
 def files_only(design: Path, out: Path) -> None:
     """Make the files as shipped, without the checks of sizes and interference that the plain row has none of."""
-    from tvimdesign.cad.jobs.main import load_kernel
+    from tvimdesign.cad.make import load_kernel
 
     load_kernel()  # as the process that makes parts does, before anything else loads it whole
     from tvimdesign.cad.jobs import build_plan

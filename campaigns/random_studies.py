@@ -118,7 +118,7 @@ def judged(seed: int) -> dict[str, Any]:
         return {"status": "infeasible", "said": str(error)[:300], "wrong": wrong, "seconds": seconds}
     seconds = time.process_time() - began
     status, _, why = answered.design.status.partition(":")
-    message = "" if answered.has_design else complaint(answered, study.table)
+    message = "" if answered.has_design else complaint(answered)
     wrong = ""
     if answered.has_design:
         wrong = wrong_optimum(study, answered)

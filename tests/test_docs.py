@@ -19,7 +19,7 @@ from support import ROOT, STUDIES, study_path
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Output, table_for
-from tvimdesign.report.run.uncertainty_data import Uncertainty
+from tvimdesign.report.run.uncertainty_data import uncertainty_data
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study, read_study_text
 
@@ -56,7 +56,7 @@ def test_the_table_shows_every_study_with_its_picture_and_the_readme_six():
 def _result(study: Path) -> str:
     """Format a study's result as the tables of studies do: size, mass, time with its interval, yield."""
     design = shipped_answer(study.stem).design
-    values, spread = design.values, Uncertainty(read_study(study)).data(design)
+    values, spread = design.values, uncertainty_data(read_study(study), design)
     size, mass, soft = (values[name] for name in ("envelope_diameter", "module_mass", "softening_time"))
     text = f"{1e3 * size:.0f} mm, {1e3 * mass:.0f} g, {soft:.0f} s"
     if plausible := spread["intervals"].get("softening_time"):
@@ -87,7 +87,7 @@ def test_the_table_of_studies_has_the_results(study):
 def _numbers(study: str) -> dict[str, str]:
     """Format a study's results as the README does, by the first cell of a row."""
     design = shipped_answer(study).design
-    values, spread = design.values, Uncertainty(read_study(study_path(study))).data(design)
+    values, spread = design.values, uncertainty_data(read_study(study_path(study)), design)
     soft, end = spread["intervals"]["softening_time"], values["softened_temperature"] - 273.15
     return {
         "envelope": f"{1e3 * values['envelope_diameter']:.0f} mm x {1e3 * values['envelope_height']:.1f} mm",

@@ -16,15 +16,15 @@ import numpy as np
 import yaml
 
 from tvimdesign.base.units import parse_quantity
-from tvimdesign.report.atlas.atlas_page import ending_limits, figure_data, front_of, rows_of
+from tvimdesign.report.atlas.atlas_page import ending_limits, figure_data, rows_of
 from tvimdesign.report.figures import theme
 from tvimdesign.report.figures.analysis_figures import atlas
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
-from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, MASS, TORQUE
+from tvimdesign.solve.torque_time_map import CYCLE, MASS, TORQUE
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
 from tvimdesign.study.atlas_studies import Atlas
-from tvimdesign.sweep.atlas import AtlasCell, cells_of, study_of
+from tvimdesign.sweep.atlas import AtlasCell, cells_of, front_of, study_of
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/atlas.md"
@@ -98,13 +98,13 @@ def kinds_table(plan: Atlas, cells: Sequence[AtlasCell]) -> str:
         own = [cell for cell in cells if cell.kind == kind]
         modules = [cell for cell in own if cell.status == OPTIMAL]
         if not modules:
-            lines.append(f"|{entry['title']}|0||||{ending_limits(own, EMPTY, 1)}|||")
+            lines.append(f"|{entry['title']}|0||||{ending_limits(own)}|||")
             continue
         fastest, densest = min(modules, key=lambda c: c.values[CYCLE]), max(modules, key=lambda c: c.density)
         columns = (
             entry["title"], f"{len(modules)}", f"{fastest.values[CYCLE]:.3g} s at {fastest.torque:g} N·m",
             f"{densest.density:.3g} N·m/kg at {densest.torque:g} N·m", f"{densest.values['cycle_energy']:.0f} J",
-            ending_limits(own, EMPTY, 1), "; ".join(doubts(plan, front_of(modules))),
+            ending_limits(own), "; ".join(doubts(plan, front_of(modules))),
             scaling(modules),
         )  # fmt: skip
         lines.append(f"|{'|'.join(columns)}|")

@@ -305,7 +305,7 @@ def test_rules_and_headlines_are_those_of_the_table(mode):
     assert not free & {"stroke", "ambient_temperature", "temperature", "frequency", "pcl_density", "target_temperature"}
 
 
-@pytest.mark.parametrize("file", ["margins.yaml", "phase_values.yaml"])
+@pytest.mark.parametrize("file", ["formulas.yaml", "margins.yaml", "phase_values.yaml"])
 def test_every_formula_of_a_data_file_is_in_a_table(file):
     groups = yaml.safe_load((ROOT / "tvimdesign/device/table" / file).read_text("utf-8"))
     listed = {name for group in groups.values() for name in group}

@@ -239,7 +239,7 @@ def test_a_sweep_is_drawn_and_its_cells_are_brushed(opened, tmp_path):
         values = [None if number == 0 else float("inf") if number == 1 else 10.0 + number] * outputs
         list(table.seeing([[number + 1, *sweep_plan.axis_values(number), *ended, *values]]))
     with Command(out) as command:
-        command.finish("swept", {}, {}, page=sweep_page(sweep_plan, table, command))
+        command.finish("swept", {}, {}, page=sweep_page(table, command))
     view = opened(out / FILE)
     view.figure("curves")
     figure = view.figure("brushed")

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from support import ROOT, cases_of
 
-from tvimdesign.report.simulate_study import figure_data, findings, sheet_csv
+from tvimdesign.report.output.numbers import curves_csv
+from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 
 WEIGHTS = "mass [g]; angle [deg]\n0; 0.9\n100; 5.1\n200; 9.3\n300; 13.4\n200; 9.8\n100; 5.6\n0; 1.4\n"
@@ -106,7 +107,8 @@ TRIAL = Trial(
 
 
 def test_sheets_figures_and_findings_have_numbers_in_their_units():
-    rows = list(csv.reader(sheet_csv(SHEET).splitlines()))
+    columns, units = {c.name: c.shown for c in SHEET.columns}, {c.name: c.unit for c in SHEET.columns}
+    rows = list(csv.reader(curves_csv(columns, units, "1").splitlines()))
     assert rows[0] == ["temperature [°C]", "strain [%]", "strain_low [%]", "strain_high [%]"]
     assert [float(value) for value in rows[2]] == pytest.approx([60.0, 2.0, 1.0, 3.0])
     line = figure_data(TRIAL)["panels"][0]["lines"][0]

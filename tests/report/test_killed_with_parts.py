@@ -49,8 +49,8 @@ def test_what_is_verified_stands_beside_the_results_while_it_is_solved(tmp_path,
         assert list(temporary.iterdir()) == []
         raise SimulationError("the mesh has no end")
 
-    monkeypatch.setattr(verify_design, "require_fe", lambda _: None)
-    monkeypatch.setattr("tvimdesign.cad.jobs.main.load_kernel", lambda: None)
+    monkeypatch.setattr(model_comparison, "require_fe", lambda _: None)
+    monkeypatch.setattr(model_comparison, "load_kernel", lambda: None)
     monkeypatch.setattr(model_comparison, "export_parts", lambda *_: None)
     monkeypatch.setattr(model_comparison, "run_solvers", solve)
     out = tmp_path / "out"

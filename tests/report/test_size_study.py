@@ -13,8 +13,10 @@ from support import refused
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run import study_files
-from tvimdesign.report.run.study_files import no_room, process_of, sized_text, sized_texts
+from tvimdesign.report.run.study_files import no_room, process_of, refusal, sized_text
+from tvimdesign.solve import sized_joint
 from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
+from tvimdesign.solve.sized_joint import nearest, sized_texts
 from tvimdesign.study import Range, Study, read_study_text
 from tvimdesign.study.sizing import JointTask, diameters, in_options, study_text
 
@@ -77,19 +79,19 @@ def test_a_study_without_room_follows_one_with_room():
 def test_a_study_without_room_names_a_diameter_that_has_some(monkeypatch):
     task = JointTask.read(**WRIST)
     monkeypatch.setattr(
-        study_files, "_wider", lambda joint: (replace(joint, diameter=0.084), "") if joint.cautious else 0
+        sized_joint, "_wider", lambda joint: (replace(joint, diameter=0.084), None) if joint.cautious else 0
     )
     note = no_room(task, lambda _: None)
     assert "; --diameter '84 mm' leaves room for most of them, by estimate: for each limit alone" in note
     study = read_study_text(study_files.described(study_text(task, "middle"), note), "joint.yaml")
     assert study.description.lower() == f"{note}."
-    monkeypatch.setattr(study_files, "_wider", lambda _: (None, ""))
+    monkeypatch.setattr(sized_joint, "_wider", lambda _: (None, None))
     assert "; no larger --diameter leaves room" in no_room(task, lambda _: None)
 
 
 def test_a_stroke_that_no_hardware_bears_is_refused_before_the_search(monkeypatch):
     steps: list[str] = []
-    monkeypatch.setattr(study_files, "_wider", lambda _: (None, ""))
+    monkeypatch.setattr(sized_joint, "_wider", lambda _: (None, None))
     with pytest.raises(InfeasibleError, match=r"±1[12].*° is the largest stroke that .* allow") as refusal:
         sized_text(JointTask.read(**WRIST, stroke="20 deg"), "joint", steps.append)
     assert "--stroke '10" in str(refusal.value)
@@ -99,14 +101,17 @@ def test_a_stroke_that_no_hardware_bears_is_refused_before_the_search(monkeypatc
 def test_what_no_number_alone_cures_is_cured_by_several(monkeypatch):
     """Name half the usual torque of 100 mm, 8 N*m (100/70)^3 = 23 N*m, and an eighth of it as stiffness."""
     task, fits = JointTask.read(**WRIST | {"diameter": "100 mm", "torque": "500 N.m"}), 12.0
-    monkeypatch.setattr(study_files, "_hardware", lambda joint: "large" if joint.torque < fits else "")
+    monkeypatch.setattr(sized_joint, "_hardware", lambda joint, **_: "large" if joint.torque < fits else "")
     for alone in ("_other_stiffness", "_less"):
-        monkeypatch.setattr(study_files, alone, lambda _: None)
-    monkeypatch.setattr(study_files, "_wider", lambda _: (None, ""))
-    refusal = study_files._refusal(task, "joint", math.inf, lambda _: None)
-    assert "  --torque '11 N.m' --stiffness '1.3 N.m/rad'" in refusal
+        monkeypatch.setattr(sized_joint, alone, lambda _: None)
+    monkeypatch.setattr(sized_joint, "_wider", lambda _: (None, None))
+
+    def refused_joint() -> str:
+        return refusal(task, "joint", nearest(task, "joint", math.inf, lambda _: None))
+
+    assert "  --torque '11 N.m' --stiffness '1.3 N.m/rad'" in refused_joint()
     fits = 0.0
-    assert "down to 10 % of the torque usual" in study_files._refusal(task, "joint", math.inf, lambda _: None)
+    assert "down to 10 % of the torque usual" in refused_joint()
 
 
 @pytest.mark.gate

@@ -208,7 +208,7 @@ def test_a_limit_in_the_duty_is_kept_by_another_search():
     missed = answer(switched.model_copy(update={"simulated": (rows[0].model_copy(update={"limit": 20.0}),)}))
     assert not missed.has_design
     assert [check.output for check in missed.checks if not check.met] == ["return_time@duty"]
-    assert "switches_per_hour" in complaint(missed, switched.table)
+    assert "switches_per_hour" in complaint(missed)
 
 
 def test_a_sweep_refuses_limits_on_a_duty():

@@ -14,9 +14,10 @@ from tvimdesign.device import table_for
 from tvimdesign.report.output.tables import results, results_csv
 from tvimdesign.report.run.blocks.more_facts import more_facts
 from tvimdesign.report.run.blocks.verdict import verdict
-from tvimdesign.report.run.front_report import of_ratings, ratings_note
+from tvimdesign.report.run.front_report import ratings_note
 from tvimdesign.report.run.reasons import above_rating
 from tvimdesign.report.run.run_study import foreseen_ratings
+from tvimdesign.solve.pareto.front import design_at
 from tvimdesign.solve.pareto.tradeoff import Point
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
@@ -39,7 +40,7 @@ def test_the_papers_ratio_is_shown_with_the_stiffness_as_drawn(published):
     assert drawn["least_spring_stiffness"] == pytest.approx(4.09, abs=0.005)
     assert "envelope_diameter" not in drawn
     assert "layer_strain" not in drawn
-    reported = results(published, TABLE)
+    reported = results(published)
     rows = {row["name"]: row for row in csv.DictReader(io.StringIO(results_csv(reported["values"])))}
     assert rows["spring_stiffness"]["idealized"] == "leg_model: ignored, transmission: unity"
     assert rows["spring_rate"]["idealized"] == "leg_model: ignored"
@@ -49,7 +50,7 @@ def test_the_papers_ratio_is_shown_with_the_stiffness_as_drawn(published):
 def test_a_study_as_drawn_has_none():
     result = answer(read_study_text("mode: shear\n"))
     assert result.idealizations == ()
-    assert not any(row["idealized"] for row in results(result, TABLE)["values"].values())
+    assert not any(row["idealized"] for row in results(result)["values"].values())
 
 
 def test_every_idealization_is_no_default_and_names_its_omission():
@@ -89,7 +90,7 @@ def test_the_pads_unpowered_are_a_module_with_no_cooling_current():
         assert seconds == pytest.approx(air.design.values[name], rel=2e-3)
     assert f"{air.design.values['frozen_time']:.3g} s if the heaters are switched off" in stiff(cooled)
     assert "by the air alone: no current cools" in stiff(air)
-    reported = results(cooled, TABLE)["cooling"]
+    reported = results(cooled)["cooling"]
     assert (reported["able"], reported["used"]) == (True, True)
     assert reported["unpowered"]["frozen_time"]["value"] == cooled.cooling.unpowered["frozen_time"]
 
@@ -128,7 +129,7 @@ def test_an_optimum_beyond_ratings_is_not_called_optimal():
     assert result.design.accepting == ()
     assert result.has_design  # it is a design all the same: every limit is met
     assert verdict(result, {}, []).text.startswith("Above a rating: ")
-    text = above_rating(result, TABLE)
+    text = above_rating(result)
     assert f"structure_temperature_margin >= 0 K, by {-result.design.value(BOTH[0]):.3g} K" in text
     assert f"accept: [{', '.join(result.design.above_rating)}]" in text
 
@@ -139,7 +140,7 @@ def test_an_optimum_within_accepted_ratings_says_what_it_accepts():
     assert set(result.design.accepting) == {*BOTH, PADS}
     assert verdict(result, {}, []).kind != "rating"
     assert f"as the study accepts: {', '.join(result.design.accepting)}" in _facts(result)["Accepts"]
-    assert above_rating(result, TABLE) == ""
+    assert above_rating(result) == ""
     assert not {check.output for check in result.warnings} & {*BOTH, PADS}
     assert result.accepted_in_vain == ()
     result = answered(f"accept: [{', '.join(BOTH)}]\n")
@@ -169,12 +170,13 @@ def test_check_says_it_beforehand_of_the_module_a_search_starts_from():
 
 
 def test_a_point_of_a_front_has_its_own():
-    values, study = answered().design.values, {"accept": list(BOTH)}
-    assert of_ratings(Point("between", values, {}), study, TABLE) == {
-        "status": "above_rating", "above_rating": (PADS,), "accepting": ("structure_temperature_margin", BOTH[1]),
-    }  # fmt: skip
-    cooler = Point("between", values | {PADS: 1.0}, {})
-    assert of_ratings(cooler, study, TABLE)["status"] == "optimal"
+    accepts = {"study": {"accept": list(BOTH)}, "accepting": (), "above_rating": ()}
+    design = answered().design.model_copy(update=accepts)
+    point = design_at(design, Point("between", design.values, {}), 2)
+    assert point.status == "above_rating"
+    assert (point.above_rating, set(point.accepting)) == ((PADS,), set(BOTH))
+    cooler = Point("between", design.values | {PADS: 1.0}, {})
+    assert design_at(design, cooler, 2).status == "optimal"
     assert ratings_note([(PADS,), ()]).startswith("points 1 of the front")
 
 

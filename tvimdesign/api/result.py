@@ -93,7 +93,7 @@ class Result(Generic[StudyT]):
         """Return the result of a study's answer. Raises NoDesignError where there is no design."""
         result = cls(answered, study)
         if not answered.result.has_design:
-            raise NoDesignError(complaint(answered.result, answered.study.table), result)
+            raise NoDesignError(complaint(answered.result), result)
         return result
 
     @property
@@ -194,9 +194,9 @@ class Result(Generic[StudyT]):
         """
         if "uncertainty" not in self.data:
             from tvimdesign.report.run.answered_study import note_uncertainty
-            from tvimdesign.report.run.uncertainty_data import Uncertainty
+            from tvimdesign.report.run.uncertainty_data import uncertainty_data
 
-            note_uncertainty(self._answered, Uncertainty(self._answered.study).data(self.design))
+            note_uncertainty(self._answered, uncertainty_data(self._answered.study, self.design))
         entry: dict[str, Any] = self.data["uncertainty"]
         return entry
 
@@ -210,8 +210,7 @@ class Result(Generic[StudyT]):
 
     def why(self) -> Reasons:
         """Return what holds the design back, and what easing it would buy."""
-        result, table = self._answered.result, self._answered.study.table
-        return Reasons(tuple(sentences(result)), tuple(why_rows(result, table)))
+        return Reasons(tuple(sentences(self._answered.result)), tuple(why_rows(self._answered.result)))
 
     @property
     def plots(self) -> list[str]:
@@ -295,7 +294,7 @@ class Result(Generic[StudyT]):
     def _repr_html_(self) -> str:
         result, table = self._answered.result, self._answered.study.table
         rows = [
-            (check.text, value_text(result, check.output, table), "met" if check.met else "violated", margin)
+            (check.text, value_text(result, check.output), "met" if check.met else "violated", margin)
             for check in result.checks if check.origin == "require" for margin in (margin_text(check, table),)
         ]  # fmt: skip
         names = [*self.design.study["vary"], *self.design.study["minimize"]]

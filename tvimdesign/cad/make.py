@@ -5,11 +5,13 @@ import json
 import queue
 import shutil
 import subprocess
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from importlib import import_module
 from pathlib import Path
-from types import TracebackType
+from types import ModuleType, TracebackType
 from typing import Any, Self
 
 from tvimdesign.base.atomic_files import atomic_write, make_folder
@@ -36,6 +38,24 @@ _DESIGN_COPY = ".design.json.part"
 WAITING = "--wait"
 """First argument of a child that reads from standard input what to make: a line of JSON with design and folder. The
 second is the mode of the design that will come, or empty."""
+_BRIDGED = "vtk"
+KERNEL = "cadquery"
+
+
+def load_kernel() -> None:
+    """Import CadQuery without the whole of VTK, in a fifth of the time; who imports `vtk` afterwards gets it whole.
+
+    OCP's bridge to VTK imports all 150 modules of it, where it finds one called `vtk`. Nothing here crosses that
+    bridge: pictures are rendered from triangles, with the few modules of VTK that this takes.
+    """
+    if KERNEL in sys.modules or _BRIDGED in sys.modules:
+        import_module(KERNEL)
+        return
+    sys.modules[_BRIDGED] = ModuleType(_BRIDGED)
+    try:
+        import_module(KERNEL)
+    finally:
+        del sys.modules[_BRIDGED]
 
 
 def make_cad(

@@ -28,22 +28,7 @@ places.inputs(
 )  # fmt: skip
 
 
-@places.output("1")
-def foot_count(m: Module) -> Scalar:
-    """Feet of the housing."""
-    return 2.0 * m.foot_pairs
-
-
-@places.output("mm")
-def housing_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the housing wall: it clears the feet."""
-    return m.placement_radius + m.mount_boss_radius + m.radial_clearance
-
-
-@places.output("mm")
-def rim_level(m: Module) -> Scalar:
-    """Upper end of the housing's wall: it clears the rotor plate."""
-    return m.rotor_top_level + m.axial_clearance
+places.formulas("lock.places")
 
 
 @places.output("mm")
@@ -93,12 +78,6 @@ def turned_overlap(m: Module) -> Scalar:
     return 1.0 - m.stroke / m.arc_span
 
 
-@turns.helper()
-def bearing_polar_moment(m: Module) -> Scalar:
-    """Polar moment of what bears of the layer [m^4], if it has frozen at the end of the stroke."""
-    return m.layer_polar_moment * m.turned_overlap
-
-
 @turns.output("N*m", headline=True)
 def layer_drag_torque(m: Module) -> Scalar:
     """Torque of the molten layer against a steady turn, at the hot point."""
@@ -112,22 +91,7 @@ def bearing_friction_share(m: Module) -> Scalar:
     return journal_torque(friction, 2.0 * m.bearing_load_per_torque - 1.0 / m.link_length, 2.0 * m.journal_radius)
 
 
-@turns.output("N*m")
-def bearing_friction_torque(m: Module) -> Scalar:
-    """Torque by which bearings or bore resist a force at the link's end that turns the molten layer."""
-    return m.layer_drag_torque * m.bearing_friction_share
-
-
-@turns.output("N*m", headline=True)
-def drag_torque(m: Module) -> Scalar:
-    """Torque at which the molten joint turns: that of the layer, and friction."""
-    return m.layer_drag_torque + m.friction_torque
-
-
-@turns.output("1", headline=True)
-def locking_ratio(m: Module) -> Scalar:
-    """Torque that the frozen joint holds over the one at which the molten joint turns."""
-    return m.holding_torque / m.drag_torque
+turns.formulas("lock.turns")
 
 
 @turns.output("kPa", headline=True)

@@ -19,12 +19,12 @@ from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study, note_uncertainty
 from tvimdesign.report.run.first_screen import verdict_of
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.run.uncertainty_data import Uncertainty
+from tvimdesign.report.run.uncertainty_data import uncertainty_data
+from tvimdesign.solve.anchored_search import NearOptimum, optimum_near
 from tvimdesign.solve.nlp import constraints
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.optimum_near import NearOptimum, optimum_near
 from tvimdesign.solve.optimizer.refinements import put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import exceeded, is_met, verify_optimum
 from tvimdesign.solve.result import ConstraintCheck
@@ -228,15 +228,14 @@ class Engine:
         answered = answer_study(
             tree, progress, search=self._near if stage == "exact" else partial(optimize, eases=True)
         )
-        result, table = answered.result, answered.study.table
-        design = result.design
+        result, design = answered.result, answered.result.design
         known = given(answered.study)
         shown = shown_design(answered.study, free, known, design.values)
-        shown["status"] = "" if result.has_design else complaint(result, table)
+        shown["status"] = "" if result.has_design else complaint(result)
         if result.has_design and state.way == "optimize" and answered.study.robust:
             progress("computing yield and intervals over the assumed values")
             with suppress(TvimError):
-                note_uncertainty(answered, Uncertainty(answered.study).data(design))
+                note_uncertainty(answered, uncertainty_data(answered.study, design))
         says = verdict_of(answered)
         shown["verdict"], shown["tone"] = says.text, says.tone
         shown["found"] = result.has_design

@@ -5,13 +5,12 @@ from typing import Any
 
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.page.blocks import Block, Points, Section
-from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.report.output.command import Command, design_file
-from tvimdesign.report.output.numbers import curves_csv, head, number
+from tvimdesign.report.output.numbers import curves_csv, head, in_unit, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.robot.fmu_file import WrittenFmu
-from tvimdesign.robot.joint_folder import STATE, unit_of, write_joint
+from tvimdesign.robot.joint_folder import write_joint
 from tvimdesign.robot.joint_model import JointModel
 from tvimdesign.study.design import Design, read_design
 
@@ -33,8 +32,8 @@ def write_models(
 ) -> tuple[JointModel, WrittenFmu]:
     """Write bodies, models, FMU and tables into a folder. Raises InputError, GeometryError."""
     model, fmu, tables = write_joint(design, folder, step, progress)
-    for name, columns in tables.items():
-        folder.write(f"{name}.csv", curves_csv(columns, {column: unit_of(column) for column in columns}, "1"))
+    for name, (columns, units) in tables.items():
+        folder.write(f"{name}.csv", curves_csv(columns, units, "1"))
     folder.write_json("joint.json", plain_model(model, fmu))
     return model, fmu
 
@@ -43,30 +42,27 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
     """Return what the models say, as plain data in SI."""
     return {
         **head(),
-        "name": model.name,
-        "time_step": model.step,
-        "stroke": model.stroke,
-        "stop_angle": model.stop_angle,
-        "holding_torque": model.holding_torque,
-        "load_inertia": model.load,
+        "name": model.name, "time_step": model.step, "stroke": model.stroke, "stop_angle": model.stop_angle,
+        "holding_torque": model.holding_torque, "load_inertia": model.load,
         "masses": {body.name: body.mass for body in (model.base, model.moving)},
         "states": {
             state.point: {
-                **{name: getattr(state, name) for name in STATE},
+                **state.plain,
                 "files": [f"joint_{state.point}.{ending}" for ending in ("xml", "urdf", "sdf")],
             }
             for state in model.states
         },
         "fmu": {"file": fmu.path.name, "platform": fmu.platform},
         "left_out": list(model.left_out),
-    }
+    }  # fmt: skip
 
 
 def model_blocks(model: JointModel, fmu: WrittenFmu) -> list[Block]:
     """Return the states, what the models leave out, and the FMU."""
     rows = [
-        (state.point, *map(number, (state.temperature - ZERO_CELSIUS, state.stiffness, state.damping, state.frequency)))
+        (state.point, in_unit(state.temperature, "degC"), number(state.stiffness), number(state.damping),
+         number(state.frequency))
         for state in model.states
-    ]
+    ]  # fmt: skip
     heads = ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz")
     return [grid("", heads, rows, right=(1, 2, 3, 4)), Points([*model.left_out, fmu.summary])]

@@ -1,18 +1,18 @@
 """One virtual test, from a study file to a finished folder: sheets as CSV, the figure, and what was read off."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.units import from_si, pretty, si_unit
+from tvimdesign.base.units import pretty, si_unit
 from tvimdesign.page.blocks import Block, Drawn, Grid, Points, Section
 from tvimdesign.report.output.command import Command, design_file, record_files
 from tvimdesign.report.output.numbers import curves_csv, finite, finite_in, head, in_unit
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.simulation.trial import Column, CurveTable, Finding, PlottedLine, Trial
+from tvimdesign.simulation.trial import Trial
 from tvimdesign.simulation.virtual_tests import find_test
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import Study, read_tree
@@ -40,7 +40,8 @@ def simulate_study(
         folder.write(f"tested{source.suffix}", tested)
         folder.write_json("findings.json", reported)
         for sheet in trial.sheets:
-            folder.write(f"{sheet.name}.csv", sheet_csv(sheet))
+            columns, units = {c.name: c.shown for c in sheet.columns}, {c.name: c.unit for c in sheet.columns}
+            folder.write(f"{sheet.name}.csv", curves_csv(columns, units, "1"))
         command.finish_plots()
         text = tested.decode() if isinstance(tested, bytes) else tested
         drawn = Drawn("curves", "lines.js", trial.title, figure, libraries=["echarts"])
@@ -73,16 +74,6 @@ def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[st
     ]
 
 
-def sheet_csv(sheet: CurveTable) -> str:
-    """Return a sheet as CSV, each column headed by its name and unit."""
-    curves = {column.name: _shown(column) for column in sheet.columns}
-    return curves_csv(curves, {column.name: column.unit for column in sheet.columns}, "1")
-
-
-def _shown(column: Column) -> list[float]:
-    return [from_si(float(value), column.unit) for value in column.values]
-
-
 def findings(trial: Trial) -> dict[str, Any]:
     """Return what was read off a test as plain data, every number in its unit."""
     return {
@@ -92,9 +83,9 @@ def findings(trial: Trial) -> dict[str, Any]:
         "findings": [
             {
                 "name": finding.name,
-                **{part: finite_in(value, finding.unit) for part, value in _parts(finding)},
+                **{part: finite_in(value, finding.unit) for part, value in finding.parts.items()},
                 "unit": pretty(finding.unit),
-                "si": {part: finite(value) for part, value in _parts(finding)}
+                "si": {part: finite(value) for part, value in finding.parts.items()}
                 | {"unit": pretty(si_unit(finding.unit))},
                 "meaning": finding.meaning,
             }
@@ -104,38 +95,27 @@ def findings(trial: Trial) -> dict[str, Any]:
     }
 
 
-def _parts(finding: Finding) -> Iterator[tuple[str, float | None]]:
-    """Yield the numbers of a finding; if history decides there is no one value, only the nominal one of an interval."""
-    if finding.low is None and finding.high is None:
-        yield "value", finding.value
-        return
-    yield from (("nominal", finding.value), ("low", finding.low), ("high", finding.high))
-
-
 def figure_data(trial: Trial) -> dict[str, Any]:
     """Return what the figure of a test is drawn from: every panel with its lines in the units of the axes."""
-    sheets = {sheet.name: sheet for sheet in trial.sheets}
-    return {
-        "title": trial.title,
-        "panels": [
-            {**vars(panel), "lines": [_line(line, sheets[line.sheet]) for line in panel.lines]}
-            for panel in trial.panels
-        ],
-    }
-
-
-def _line(line: PlottedLine, sheet: CurveTable) -> dict[str, Any]:
-    band = [_shown(sheet.column(name)) for name in line.band] if line.band else None
-    return {"x": _shown(sheet.column(line.x)), "y": _shown(sheet.column(line.y)), "band": band,
-            "label": line.label, "dashed": line.dashed}  # fmt: skip
+    sheets = {sheet.name: {column.name: column.shown for column in sheet.columns} for sheet in trial.sheets}
+    panels = []
+    for panel in trial.panels:
+        lines = []
+        for line in panel.lines:
+            shown = sheets[line.sheet]
+            band = [shown[name] for name in line.band] if line.band else None
+            lines.append(
+                {"x": shown[line.x], "y": shown[line.y], "band": band, "label": line.label, "dashed": line.dashed}
+            )
+        panels.append({**vars(panel), "lines": lines})
+    return {"title": trial.title, "panels": panels}
 
 
 def findings_table(trial: Trial) -> Grid:
-    """Return what was read off, a row for each finding."""
-    rows = [(finding.name, _value(finding), pretty(finding.unit), finding.meaning) for finding in trial.findings]
+    """Return what was read off, a row for each finding; of an interval its ends."""
+    rows = []
+    for finding in trial.findings:
+        numbers = [number for part, number in finding.parts.items() if part != "nominal" and number is not None]
+        value = " to ".join(in_unit(number, finding.unit) for number in numbers)
+        rows.append((finding.name, value, pretty(finding.unit), finding.meaning))
     return grid("", ("finding", "value", "unit", "meaning"), rows, right=(1,))
-
-
-def _value(finding: Finding) -> str:
-    shown = [finding.value] if finding.low is None or finding.high is None else [finding.low, finding.high]
-    return " to ".join(in_unit(value, finding.unit) for value in shown)

@@ -6,22 +6,21 @@ from typing import Any
 
 from tvimdesign.page.blocks import Drawn
 from tvimdesign.report.output.numbers import axis_label, name_in_words
-from tvimdesign.sweep.plan import SweepPlan
-from tvimdesign.sweep.shards import Column, Value, columns
+from tvimdesign.sweep.shards import Column, Value
 from tvimdesign.sweep.swept_cells import CellTable, SweptCells
 
 MOST_LINES = 6
 
 
-def figure_data(plan: SweepPlan, seen: CellTable, rows: list[dict[str, Value]] | None = None) -> dict[str, Any]:
+def figure_data(seen: CellTable, rows: list[dict[str, Value]] | None = None) -> dict[str, Any]:
     """Return a panel for each output: lines over the first swept number, or points over the first two.
 
     `rows` are the cells that are drawn: those of the picture unless given.
     """
     drawn = seen.drawn if rows is None else rows
-    every = [column for column in columns(plan) if column.kind == "axis"]
+    plan, every = seen.plan, [column for column in seen.columns if column.kind == "axis"]
     numbers = [column for column in every if column.unit]
-    across = numbers[0] if numbers else Column("cell", "1", "cell", "")
+    across = numbers[0] if numbers else seen.columns[0]
     others = [column for column in every if column is not across]
     kinds = {_label(row, others) for row in drawn}
     over_two = len(numbers) > 1 and len(kinds) > MOST_LINES
@@ -70,18 +69,18 @@ _MOST_OUTPUTS = 6  # Outputs that are axes of the figure to brush
 CELL_WORDS = {"title": "Cells", "one": "cell", "many": "cells"}  # Name of the points of a sweep in `front.js`
 
 
-def figures(plan: SweepPlan, seen: CellTable, data: dict[str, Any]) -> tuple[Drawn | None, Drawn | None]:
+def figures(seen: CellTable, data: dict[str, Any]) -> tuple[Drawn | None, Drawn | None]:
     """Return lines over what is swept, and the cells of a sweep over two or more numbers to be brushed."""
-    axes = [column for column in columns(plan) if column.kind == "axis" and column.unit]
-    return _lines(data), _brushed(plan, seen) if len(axes) > 1 else None
+    axes = [column for column in seen.columns if column.kind == "axis" and column.unit]
+    return _lines(data), _brushed(seen) if len(axes) > 1 else None
 
 
-def cell_points(plan: SweepPlan, listed: Iterable[dict[str, Value]]) -> dict[str, Any] | None:
+def cell_points(columns: Iterable[Column], listed: Iterable[dict[str, Value]]) -> dict[str, Any] | None:
     """Return what `front.js` draws: every cell with an answer by its axes and its first outputs that have numbers.
 
     Where words alone are swept the cells lie by their numbers. None where no output has a number.
     """
-    numbers = [column for column in columns(plan) if column.unit]
+    numbers = [column for column in columns if column.unit]
     axes = [column for column in numbers if column.kind == "axis"] or numbers[:1]
     outputs = [column for column in numbers if column.kind == "output"]
     rows = [row for row in listed if row["violated"] is not None]
@@ -101,7 +100,7 @@ def cell_points(plan: SweepPlan, listed: Iterable[dict[str, Value]]) -> dict[str
 
 def shown_cells(cells: SweptCells) -> dict[str, Any]:
     """Return the cells of a folder as the page draws them; no points where no cell has an answer."""
-    drawn = cell_points(cells.plan, cells.listed())
+    drawn = cell_points(cells.columns, cells.listed())
     return drawn or {"of": [], "names": [], "labels": [], "points": [], "words": CELL_WORDS}
 
 
@@ -132,8 +131,8 @@ def _panel(panel: dict[str, Any], data: dict[str, Any], there: set[str]) -> dict
     }  # fmt: skip
 
 
-def _brushed(plan: SweepPlan, seen: CellTable) -> Drawn | None:
-    data = cell_points(plan, seen.listed)
+def _brushed(seen: CellTable) -> Drawn | None:
+    data = cell_points(seen.columns, seen.listed)
     if data is None:
         return None
     says = (

@@ -26,36 +26,36 @@ from tvimdesign.report.sweep_figures import figure_data, figures
 from tvimdesign.study.tree import study_file, study_text, tree_of_file
 from tvimdesign.sweep.plan import SweepPlan, plan_of, written
 from tvimdesign.sweep.run_sweep import Executor, SweepDone, run_sweep
-from tvimdesign.sweep.shards import SHARDS, Column, Shards, Value, columns, rows, write_tables
-from tvimdesign.sweep.swept_cells import CellTable
+from tvimdesign.sweep.shards import SHARDS, Column, Value
+from tvimdesign.sweep.swept_cells import CellTable, gather
 
 MOST_OUTPUTS = 12  # Outputs of the page's table; `cells.csv` has all
 _TONES: dict[str, Tone] = {"infeasible": "bad", "refused": "bad", "crashed": "bad", "above_rating": "warn"}
 
 
-def cells_grid(plan: SweepPlan, seen: CellTable) -> Grid:
+def cells_grid(seen: CellTable) -> Grid:
     """Return a row a cell; of many cells every second, third, ... and of many outputs the first."""
-    every = columns(plan)
-    outputs = [column for column in every if column.kind == "output"]
-    shown = [column for column in every if column.kind in {"cell", "axis"} or column.name in {"status", "violated"}]
-    shown += outputs[:MOST_OUTPUTS]
-    return Grid("Cells", _heads(shown), _cells(seen.listed, shown), _left_out(plan, seen, len(outputs)))
+    outputs = [column for column in seen.columns if column.kind == "output"]
+    shown = [*_named(seen, "status", "violated"), *outputs[:MOST_OUTPUTS]]
+    return Grid("Cells", _heads(shown), _cells(seen.listed, shown), _left_out(seen, len(outputs)))
 
 
-def failed_grid(plan: SweepPlan, seen: CellTable) -> Grid:
+def failed_grid(seen: CellTable) -> Grid:
     """Return the cells that have no answer, with the reason of each."""
-    shown_columns = {"status", "reason"}
-    shown = [column for column in columns(plan) if column.kind in {"cell", "axis"} or column.name in shown_columns]
-    left = seen.failures - len(seen.failed)
+    shown, left = _named(seen, "status", "reason"), seen.failures - len(seen.failed)
     note = f"The first {len(seen.failed)} of {seen.failures}; `reason` in cells.csv has all." if left else ""
     return Grid("Cells without an answer", _heads(shown), _cells(seen.failed, shown), note)
 
 
-def _left_out(plan: SweepPlan, seen: CellTable, outputs: int) -> str:
+def _named(seen: CellTable, *names: str) -> list[Column]:
+    return [column for column in seen.columns if column.kind in {"cell", "axis"} or column.name in names]
+
+
+def _left_out(seen: CellTable, outputs: int) -> str:
     """Return what the table does not show, and where that is."""
     sentences = []
     if seen.every_listed > 1:
-        sentences.append(f"{len(seen.listed)} of {plan.count} cells are in this table, one in {seen.every_listed}")
+        sentences.append(f"{len(seen.listed)} of {seen.plan.count} cells are in this table, one in {seen.every_listed}")
     if outputs > MOST_OUTPUTS:
         sentences.append(f"the first {MOST_OUTPUTS} of {outputs} outputs are in it")
     return f"{'; '.join(sentences)}. cells.csv and cells.sqlite have all.".capitalize() if sentences else ""
@@ -91,23 +91,25 @@ _FILES = {
 _FEW = 8  # Values of an axis that are listed one by one
 
 
-def sweep_page(plan: SweepPlan, seen: CellTable, command: Command) -> Page:
+def sweep_page(seen: CellTable, command: Command) -> Page:
     """Return the page of a sweep, whose tables and figure the folder has."""
+    plan = seen.plan
     answered = plan.count - seen.failures
     done = "EVALUATED" if plan.task == "evaluate" else "OPTIMISED"
     verdict = f"{answered if seen.failures == 0 else f'{answered} OF {plan.count}'} CELLS {done}"
-    lines, brushed = figures(plan, seen, figure_data(plan, seen, seen.listed))
+    lines, brushed = figures(seen, figure_data(seen, seen.listed))
     sections = [Section("curves", "Figure", [lines])] if lines else []
-    sections += [Section("cells", "Cells", [*([brushed] if brushed else []), cells_grid(plan, seen)])]
-    sections += [Section("failed", "Cells without an answer", [failed_grid(plan, seen)])] if seen.failures else []
+    sections += [Section("cells", "Cells", [*([brushed] if brushed else []), cells_grid(seen)])]
+    sections += [Section("failed", "Cells without an answer", [failed_grid(seen)])] if seen.failures else []
     return command.page(
-        plan.study.name, f"sweep of a {plan.study.mode} module", verdict, [swept_facts(plan, seen)], sections,
+        plan.study.name, f"sweep of a {plan.study.mode} module", verdict, [swept_facts(seen)], sections,
         tone="warn" if seen.failures else "", files=_FILES, study=study_text(plan.written),
     )  # fmt: skip
 
 
-def swept_facts(plan: SweepPlan, seen: CellTable) -> Facts:
+def swept_facts(seen: CellTable) -> Facts:
     """Return what was swept and how, how the cells ended, and the least of what is to be small."""
+    plan = seen.plan
     ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in seen.statuses.items())
     task = "each cell is evaluated" if plan.task == "evaluate" else "each cell is optimised"
     seed = f", seed {plan.block.seed}" if plan.block.count else ""
@@ -191,13 +193,11 @@ def _gathered(plan: SweepPlan, command: Command, done: SweepDone, *, plots: bool
     """Write the tables, the figure, the page and the manifest."""
     folder = command.folder
     command.progress("gathering the cells")
-    seen = CellTable(plan)
-    every = seen.seeing(rows(plan, done.keys, Shards(folder.path, plan.columns)))
-    write_tables(plan, every, folder.path)
+    seen = gather(plan, done.keys, folder.path)
     results = {
         **head(), "study": plan.study.name, "task": plan.task, "method": plan.block.method, "seed": plan.block.seed,
         "cells": done.cells, "statuses": seen.statuses, "best": seen.best,
-        "columns": [column._asdict() for column in columns(plan)],
+        "columns": [column._asdict() for column in seen.columns],
     }  # fmt: skip
     if plan.study.catalog_folder:  # the explorer reads study.yaml, whose own path is relative to another folder
         results["catalog"] = str(Path(plan.study.catalog_folder).resolve())
@@ -205,15 +205,15 @@ def _gathered(plan: SweepPlan, command: Command, done: SweepDone, *, plots: bool
     folder.write_json("sweep.json", results)
     if plots and plan.study.write.plots:
         command.start_plotter()
-        drawing = Drawing("sweep", "analysis_figures.sweep", figure_data(plan, seen))
+        drawing = Drawing("sweep", "analysis_figures.sweep", figure_data(seen))
         command.begin_plots([drawing], plan.study.name, vector=plan.study.write.vector)
         folder.look_up_versions()
         command.finish_plots(again="repeat the command with --resume")
-    page = sweep_page(plan, seen, command)
+    page = sweep_page(seen, command)
     spent = {name: round(value, 3) for name, value in asdict(done.spent).items()}
     seconds = time.perf_counter() - began
     timing = {"seconds": round(seconds, 3), "reused": done.reused, "computed": done.computed, **spent}
-    facts = Facts([*swept_facts(plan, seen).rows, ("This run", _in_short(timing))])
+    facts = Facts([*swept_facts(seen).rows, ("This run", _in_short(timing))])
     command.shown = [Section("sweep", "", [facts])]
     inputs = {"study": plan.tree.path} if plan.tree.path else {}
     command.finish("swept", inputs, {"solver": {"seed": plan.block.seed}}, timing, page)

@@ -2,26 +2,17 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from tvimdesign.base.units import from_si, pretty, si_unit, to_si
-from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import axis_label, finite, head, name_in_words
-from tvimdesign.report.run.uncertainty_data import share_entry
-from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread
-from tvimdesign.study import Study
 from tvimdesign.study.text.values import difference_unit
 
 Row = dict[str, Any]
-_NO_SPREAD = 1e-9  # Standard deviation over the value below which an output does not spread
-
-
-def spreads(spread: Spread, i: int) -> bool:
-    """Return whether an output spreads at all."""
-    return bool(spread.deviation[i] > _NO_SPREAD * abs(spread.nominal[i])) or bool(spread.drawn.never[i] > 0.0)
 
 
 def _columns(spread: Spread) -> dict[str, Any]:
@@ -33,9 +24,9 @@ def _columns(spread: Spread) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def output_rows(spread: Spread, table: Table) -> Iterator[Row]:
+def output_rows(spread: Spread) -> Iterator[Row]:
     """Yield one row for each output: as drawn, worst case, root-sum-square and Monte Carlo side by side."""
-    columns = _columns(spread)
+    columns, table = _columns(spread), spread.study.table
     for i, name in enumerate(spread.outputs):
         unit = table.unit(name)
         units = {key: difference_unit(unit) if key.startswith("deviation") else unit for key in columns}
@@ -43,21 +34,22 @@ def output_rows(spread: Spread, table: Table) -> Iterator[Row]:
         yield {"output": name, "unit": pretty(unit), **shown, "never": float(spread.drawn.never[i])}
 
 
-def limit_rows(spread: Spread, table: Table) -> Iterator[Row]:
+def limit_rows(spread: Spread) -> Iterator[Row]:
     """Yield one row for each limit: its yield with the interval of 95 %, and its C_pk."""
     for limit_yield in spread.limit_yields:
         yield {
-            "limit": in_words(limit_yield.limit, table), "output": limit_yield.limit.output,
+            "limit": limit_yield.text, "output": limit_yield.limit.output,
             "origin": limit_yield.limit.origin,
             "yield": limit_yield.share.share, "yield_low": limit_yield.share.low, "yield_high": limit_yield.share.high,
             "cpk": finite(limit_yield.capability),
         }  # fmt: skip
 
 
-def contributor_rows(spread: Spread, table: Table, study: Study) -> Iterator[Row]:
+def contributor_rows(spread: Spread) -> Iterator[Row]:
     """Yield one row for each output that spreads and each contributor: tolerance, derivative, and its shares."""
+    study, table = spread.study, spread.study.table
     for i, name in enumerate(spread.outputs):
-        if not spreads(spread, i):
+        if not spread.spreads(i):
             continue
         for j, contributor in enumerate(spread.contributors):
             of, by = difference_unit(table.unit(name)), difference_unit(table.unit(contributor.name))
@@ -73,19 +65,19 @@ def contributor_rows(spread: Spread, table: Table, study: Study) -> Iterator[Row
             }  # fmt: skip
 
 
-def reported(spread: Spread, preload: Preload | None, table: Table, study: Study, samples: int) -> dict[str, Any]:
+def reported(spread: Spread, preload: Preload | None) -> dict[str, Any]:
     """Return everything as plain data."""
-    columns, rows = _columns(spread), list(output_rows(spread, table))
+    columns, rows = _columns(spread), list(output_rows(spread))
     for i, row in enumerate(rows):
         numbers = {key: finite(float(column[i])) for key, column in columns.items()}
-        row["si"] = {**numbers, "unit": pretty(si_unit(table.unit(spread.outputs[i])))}
+        row["si"] = {**numbers, "unit": pretty(si_unit(spread.study.table.unit(spread.outputs[i])))}
     return {
         **head(),
-        "samples": samples,
-        "yield": share_entry(spread.together),
+        "samples": spread.drawn.values.shape[1],
+        "yield": spread.together and asdict(spread.together),
         "outputs": rows,
-        "limits": list(limit_rows(spread, table)),
-        "contributors": list(contributor_rows(spread, table, study)),
+        "limits": list(limit_rows(spread)),
+        "contributors": list(contributor_rows(spread)),
         "corners": spread.worst.corners,
         "free_angle": None if preload is None else {
             "as_bought_deg": math.degrees(preload.as_bought),
@@ -104,9 +96,9 @@ _BINS = 60
 _REACH = 5.0  # Half of a histogram's axis over the span of the middle half of all modules
 
 
-def figure_data(spread: Spread, table: Table) -> dict[str, Any]:
+def figure_data(spread: Spread) -> dict[str, Any]:
     """Return contributors' shares of requirements and minimised outputs, and histograms of the least satisfied."""
-    shown = [i for i, name in enumerate(spread.outputs) if name in spread.requested and spreads(spread, i)]
+    shown = [i for i, name in enumerate(spread.outputs) if name in spread.requested and spread.spreads(i)]
     order = np.argsort(-np.sum(spread.shares[shown], axis=0), kind="stable")
     parts = [
         {
@@ -121,13 +113,13 @@ def figure_data(spread: Spread, table: Table) -> dict[str, Any]:
     by_yield = sorted(spread.limit_yields, key=lambda limit_yield: limit_yield.share.share)
     rows = dict.fromkeys(spread.outputs.index(limit_yield.limit.output) for limit_yield in by_yield)
     every = dict.fromkeys([*rows, *shown])
-    panels = [_panel(spread, table, i) for i in every if spreads(spread, i)][:_PANELS]
+    panels = [_panel(spread, i) for i in every if spread.spreads(i)][:_PANELS]
     return {"outputs": [name_in_words(spread.outputs[i]) for i in shown], "parts": parts, "panels": panels}
 
 
-def _panel(spread: Spread, table: Table, i: int) -> dict[str, Any]:
+def _panel(spread: Spread, i: int) -> dict[str, Any]:
     name = spread.outputs[i]
-    unit = table.unit(name)
+    unit = spread.study.table.unit(name)
     values = spread.drawn.values[i]
     finite = values[np.isfinite(values)]
     # What one in a thousand modules has would press all others into one bar.

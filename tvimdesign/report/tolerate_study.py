@@ -11,7 +11,6 @@ import numpy as np
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Folded, Grid, Picture, Points, Section
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import csv_text, ends_text, number
@@ -20,12 +19,10 @@ from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.tables import soft_of_module
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.tolerance_data import contributor_rows, figure_data, limit_rows, output_rows, reported, spreads
+from tvimdesign.report.tolerance_data import contributor_rows, figure_data, limit_rows, output_rows, reported
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.solve.nlp.constraints import in_words
-from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
-from tvimdesign.solve.uncertainty.tolerance import LimitYield, Preload, Spread, Tolerancing
+from tvimdesign.solve.uncertainty.tolerance import GOOD, Preload, Spread, Tolerancing
 from tvimdesign.study import Study, read_study, standard_tolerances
 from tvimdesign.study.design import Design, read_design, write_design
 
@@ -38,19 +35,19 @@ def spread_table(spread: Spread, data: Mapping[str, Any]) -> Grid:
          number(row["deviation_rss"]), number(row["mean"]), number(row["deviation"]),
          ends_text(row["low"], row["high"], 4), row["unit"], _most_by(spread, i))
         for i, row in enumerate(data["outputs"])
-        if row["output"] in spread.requested and spreads(spread, i)
+        if row["output"] in spread.requested and spread.spreads(i)
     ]  # fmt: skip
     return grid("What spreads from part to part", heads, rows, right=range(1, 7), code=(0, 8))
 
 
-def concern_table(spread: Spread, table: Table) -> Grid:
+def concern_table(spread: Spread) -> Grid:
     """Tabulate limits that too many modules violate, and what carries their spread."""
     rows = [
-        (in_words(limit.limit, table), f"{100.0 * limit.share.share:.4g} %", f"{limit.capability:.2f}",
+        (limit.text, f"{100.0 * limit.share.share:.4g} %", f"{limit.capability:.2f}",
          _most_by(spread, spread.outputs.index(limit.limit.output)))
-        for limit in of_concern(spread)
+        for limit in spread.of_concern
     ]  # fmt: skip
-    caption = f"Limits that fewer than {100.0 * _GOOD:g} % of modules meet"
+    caption = f"Limits that fewer than {100.0 * GOOD:g} % of modules meet"
     return grid(caption, ("", "yield", "C_pk", "most by"), rows, right=(1, 2))
 
 
@@ -74,9 +71,9 @@ def verdict(data: Mapping[str, Any]) -> str:
     return f"{100.0 * share['share']:.3g} % OF MODULES SATISFY ALL LIMITS ({low} to {high})"
 
 
-def sections_of(folder: ResultsFolder, spread: Spread, data: Mapping[str, Any], table: Table) -> list[Section]:
+def sections_of(folder: ResultsFolder, spread: Spread, data: Mapping[str, Any]) -> list[Section]:
     """Return what varies from part to part; `data` is that of tolerances.json."""
-    grids = (spread_table(spread, data), concern_table(spread, table))
+    grids = (spread_table(spread, data), concern_table(spread))
     varies: list[Block] = [grid for grid in grids if grid.rows]
     picture = folder.path / _FIGURE
     if picture.exists():
@@ -105,42 +102,29 @@ def _contributors(data: Mapping[str, Any]) -> Block:
     return grid("Contributors", heads, rows, code=(0, 1))
 
 
-_GOOD = 0.9973  # Yield from which a limit is no concern: three standard deviations to either side
 _ON_THE_LIMIT = 0.1  # C_pk below which no tolerance helps, only another design
 _BENT = 0.1  # Difference of the two standard deviations from which an output is not linear within the tolerances
 _NAMED = 3
 _CARRIED = 0.2  # Share of a limit's variance from which a contributor counts as carrying it
 
 
-def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str]:
+def sentences(spread: Spread, preload: Preload | None) -> list[str]:
     """Return what people should know, the most important first."""
-    worst = [limit_yield for limit_yield in spread.limit_yields if _violated_at_worst(spread, limit_yield)]
-    corners = "no limit is violated" if not worst else f"{len(worst)} of {len(spread.limit_yields)} limits are violated"
+    violated, limits = spread.violated_at_worst, len(spread.limit_yields)
+    corners = f"{violated} of {limits} limits are violated" if violated else "no limit is violated"
     angle = [] if preload is None else [free_angle(preload)]
-    return [f"In the worst case {corners}.", *_what_first(spread, table), *angle, *_caveats(spread)]
+    return [f"In the worst case {corners}.", *_what_first(spread), *angle, *_caveats(spread)]
 
 
-def _violated_at_worst(spread: Spread, limit_yield: LimitYield) -> bool:
-    i = spread.outputs.index(limit_yield.limit.output)
-    end = spread.worst.high[i] if limit_yield.limit.sense == "<=" else spread.worst.low[i]
-    return not float(limit_yield.limit.residual(end)) <= 1e-9
-
-
-def of_concern(spread: Spread) -> list[LimitYield]:
-    """Return limits that too many modules violate, the worst first."""
-    concern = [limit_yield for limit_yield in spread.limit_yields if limit_yield.share.share < _GOOD]
-    return sorted(concern, key=lambda limit_yield: limit_yield.share.share)
-
-
-def _what_first(spread: Spread, table: Table) -> Iterator[str]:
+def _what_first(spread: Spread) -> Iterator[str]:
     """Yield what to tighten, limit by limit; where the mean stands on the limit, that tightening does not help."""
-    concern = of_concern(spread)
+    concern = spread.of_concern
     if not concern:
-        yield f"Every limit is met by {100 * _GOOD:g} % of the modules and more: nothing needs to be tightened."
+        yield f"Every limit is met by {100 * GOOD:g} % of the modules and more: nothing needs to be tightened."
         return
     on_limit = [limit_yield for limit_yield in concern if limit_yield.capability < _ON_THE_LIMIT]
     if on_limit:
-        names = ", ".join(in_words(limit_yield.limit, table) for limit_yield in on_limit[:_NAMED])
+        names = ", ".join(limit_yield.text for limit_yield in on_limit[:_NAMED])
         more = f" and {len(on_limit) - _NAMED} more" if len(on_limit) > _NAMED else ""
         yield (
             f"The mean stands on or beyond {names}{more}: no tolerance cures that. Move the design away from the "
@@ -149,37 +133,22 @@ def _what_first(spread: Spread, table: Table) -> Iterator[str]:
     mendable = [limit_yield for limit_yield in concern if limit_yield not in on_limit] or concern
     lost = {contributor.name: 0.0 for contributor in spread.contributors}
     for limit_yield in mendable:
-        i = spread.outputs.index(limit_yield.limit.output)
         for j, name in enumerate(lost):
-            lost[name] += (1.0 - limit_yield.share.share) * float(spread.shares[i, j])
+            lost[name] += (1.0 - limit_yield.share.share) * spread.share(limit_yield, j)
     first = max(lost, key=lambda name: lost[name])
     j = list(lost).index(first)
-    led = _led_by(spread, mendable, j)
-    yield f"Tighten {first} first: {'; '.join(_halved(spread, limit_yield, j, table) for limit_yield in led)}."
-
-
-def _led_by(spread: Spread, concern: list[LimitYield], j: int) -> list[LimitYield]:
-    """Return the limits of concern that one contributor carries most of."""
-
-    def share(limit_yield: LimitYield) -> float:
-        return float(spread.shares[spread.outputs.index(limit_yield.limit.output), j])
-
-    carried = [limit_yield for limit_yield in concern if share(limit_yield) >= _CARRIED] or concern[:1]
-    return sorted(carried, key=share, reverse=True)[:2]
-
-
-def _halved(spread: Spread, limit_yield: LimitYield, j: int, table: Table) -> str:
-    """Return what a contributor carries of a limit's spread, and what half its tolerance would do."""
-    i = spread.outputs.index(limit_yield.limit.output)
-    share = float(spread.shares[i, j])
-    carried = (
-        f"it carries {100 * share:.0f} % of the variance behind {in_words(limit_yield.limit, table)}, which "
-        f"{100 * limit_yield.share.share:.3g} % meet"
-    )
-    if limit_yield.capability < _ON_THE_LIMIT:
-        return carried
-    able = limit_yield.capability / math.sqrt(1.0 - 0.75 * share)
-    return f"{carried}; with half its tolerance C_pk would be {able:.2f} instead of {limit_yield.capability:.2f}"
+    carried = [limit_yield for limit_yield in mendable if spread.share(limit_yield, j) >= _CARRIED] or mendable[:1]
+    texts = []
+    for limit_yield in sorted(carried, key=lambda each: spread.share(each, j), reverse=True)[:2]:
+        share, able = spread.share(limit_yield, j), limit_yield.capability
+        texts.append(
+            f"it carries {100 * share:.0f} % of the variance behind {limit_yield.text}, which "
+            f"{100 * limit_yield.share.share:.3g} % meet"
+        )
+        if able >= _ON_THE_LIMIT:
+            halved = able / math.sqrt(1.0 - 0.75 * share)
+            texts[-1] += f"; with half its tolerance C_pk would be {halved:.2f} instead of {able:.2f}"
+    yield f"Tighten {first} first: {'; '.join(texts)}."
 
 
 def free_angle(preload: Preload) -> str:
@@ -223,30 +192,29 @@ def tolerate_study(path: Path, out: Path, samples: int, *, overwrite: bool, as_j
     """
     if not FEWEST <= samples <= MOST:
         raise InputError(f"--samples {samples}: must be {FEWEST} to {MOST}")
-    count, threads = power_of_two(samples), os.cpu_count() or 1
     source = design_file(path)
     study = Study.model_validate(read_design(source).study) if source.suffix == ".json" else read_study(source)
     with Command(out, overwrite=overwrite, as_json=as_json, plots=study.write.plots) as command:
         folder, progress = command.folder, command.progress
         module, optimum, notes = _module(source, study, progress)
-        table, study = module.table, module.study
-        analysis, seed = Tolerancing(module, progress, threads), study.solver.seed
-        spread, preload = analysis.analyse(count, seed), analysis.preload(count, seed)
-        data = reported(spread, preload, table, study, count)
+        study = module.study
+        analysis, seed = Tolerancing(module, progress, os.cpu_count() or 1), study.solver.seed
+        spread, preload = analysis.analyse(samples, seed), analysis.preload(samples, seed)
+        data = reported(spread, preload)
         data["notes"] = [*notes, f"Soft is {soft_of_module(module)}."]
-        data["sentences"] = sentences(spread, preload, table)
+        data["sentences"] = sentences(spread, preload)
         folder.write(f"tolerated{source.suffix}", source.read_bytes())
         if optimum is not None:
             write_design(optimum, folder.path / "design.json")
         folder.write_json("tolerances.json", data)
-        folder.write("outputs.csv", csv_text(output_rows(spread, table), digits=6))
-        folder.write("limits.csv", csv_text(limit_rows(spread, table), digits=6))
-        folder.write("contributors.csv", csv_text(contributor_rows(spread, table, study), digits=6))
-        command.begin_plots([Drawing("spread", "analysis_figures.spread", figure_data(spread, table))], study.name)
+        folder.write("outputs.csv", csv_text(output_rows(spread), digits=6))
+        folder.write("limits.csv", csv_text(limit_rows(spread), digits=6))
+        folder.write("contributors.csv", csv_text(contributor_rows(spread), digits=6))
+        command.begin_plots([Drawing("spread", "analysis_figures.spread", figure_data(spread))], study.name)
         command.finish_plots()
         page = command.page(
             study.name, "tolerances", verdict(data), [Points(data["sentences"]), Points(data["notes"])],
-            sections_of(folder, spread, data, table), study=source.read_text("utf-8"), files=FILES,
+            sections_of(folder, spread, data), study=source.read_text("utf-8"), files=FILES,
         )  # fmt: skip
         command.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"), page=page)
     command.report(data, "Tables and figure are")
@@ -268,7 +236,7 @@ def _module(source: Path, study: Study, progress: Progress) -> tuple[ResolvedMod
     progress("searching for the optimum")
     result = answer(study, progress)
     if not result.has_design:
-        raise InfeasibleError(complaint(result, study.table))
+        raise InfeasibleError(complaint(result))
     robust = ", robust as it asks" if study.robust else ""
     notes = [f"Module: the optimum of {source}{robust}.", *result.design.rating_notes, *notes]
     return resolve_design(result.design), result.design, notes

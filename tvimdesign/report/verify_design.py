@@ -6,16 +6,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-import numpy as np
-
 from tvimdesign.base.units import pretty
-from tvimdesign.cad.fe.model_comparison import Compared, compare_with_fe, refuse_other_parts
-from tvimdesign.cad.fe.run_solvers import Solved, require_fe
+from tvimdesign.cad.fe.model_comparison import Compared, compare_with_fe, refuse_unsolvable
+from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.blocks import Block, Grid, Page, Picture, Points, Section, Words
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import csv_text, finite, head, number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.study.design import read_design
 
 DATA = "verify.json"
@@ -110,18 +107,13 @@ TITLES = {
 
 def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, as_json: bool) -> None:
     """Solve the parts of a design and write the folder. Raises InputError, SimulationError, OutputError."""
-    from tvimdesign.cad.jobs.main import load_kernel
-
     source = design_file(path)
     design = read_design(source)
     python = fe_python or sys.executable
-    require_fe(python)
-    module = resolve_design(design)
-    refuse_other_parts(module)
+    refuse_unsolvable(design, python)
     with Command(out, overwrite=overwrite, as_json=as_json) as command:
         with TemporaryDirectory(dir=command.folder.path, prefix=_WORK) as work:
-            load_kernel()
-            rows, solved = compare_with_fe(design, module, Path(work).resolve(), python, command.progress)
+            rows, solved = compare_with_fe(design, Path(work).resolve(), python, command.progress)
             data = verified(rows, solved)
             _write(command, data, rows, solved, Path(work))
         page = verify_page(command, design.name, data, rows)
@@ -139,14 +131,10 @@ def verify_page(command: Command, name: str, data: dict[str, Any], rows: list[Co
 
 
 def _write(command: Command, data: dict[str, Any], rows: list[Compared], solved: dict[str, Solved], work: Path) -> None:
-    from tvimdesign.cad.render.render import write_field_picture
-
     command.folder.write_json("verify.json", data)
     command.folder.write("verify.csv", table_csv(rows))
     command.progress("verify: drawing the fields")
     for name, solution in solved.items():
-        with np.load(solution.field) as field:
-            points, triangles, values, ways = (field[part] for part in ("points", "triangles", "values", "ways"))
         picture = work / f"{name}.png"
-        write_field_picture(picture, points, triangles, values, ways, TITLES[name])
+        solution.write_picture(picture, TITLES[name])
         command.folder.write(picture.name, picture.read_bytes())

@@ -20,17 +20,14 @@ UNITS = {
 """Of the columns; what is not here has none."""
 
 
-def unit_of(column: str) -> str:
+def _unit_of(column: str) -> str:
     """Return the unit of a column, also of its least and largest value."""
     return UNITS.get(column.removesuffix("_low").removesuffix("_high"), "1")
 
 
-STATE = ("temperature", "frequency", "stiffness", "damping", "springs", "friction")
-
-
 def _states(model: JointModel) -> Columns:
     """Tabulate for each state the whole joint's stiffness and damping by frequency, and its friction."""
-    columns = {name: [getattr(state, name) for state in model.states] for name in STATE}
+    columns = {name: [state.plain[name] for state in model.states] for name in model.states[0].plain}
     return {**columns, "temperature": [value - ZERO_CELSIUS for value in columns["temperature"]]}
 
 
@@ -60,8 +57,8 @@ def _over_temperature(resolved: ResolvedModule, model: JointModel) -> Columns:
 
 def write_joint(
     design: Design, folder: ResultsFolder, step: float | None, progress: Callable[[str], None]
-) -> tuple[JointModel, WrittenFmu, dict[str, Columns]]:
-    """Write bodies, models and FMU into a folder; return the tables, too. Raises InputError, GeometryError."""
+) -> tuple[JointModel, WrittenFmu, dict[str, tuple[Columns, dict[str, str]]]]:
+    """Write bodies, models and FMU into a folder; return the tables, with units. Raises InputError, GeometryError."""
     refuse_step(step)
     resolved = resolve_design(design)
     written = write_design(design, folder.path / "design.json")
@@ -79,4 +76,5 @@ def write_joint(
     fmu = write_fmu(resolved, folder.path / "joint.fmu", controller)
     for name, code in controller_files(controller).items():
         folder.write(f"controller/{name}", code)
-    return model, fmu, {"states": _states(model), "elements": _elements(model), "temperatures": swept}
+    tables = {"states": _states(model), "elements": _elements(model), "temperatures": swept}
+    return model, fmu, {name: (table, {each: _unit_of(each) for each in table}) for name, table in tables.items()}

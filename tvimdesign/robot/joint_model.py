@@ -44,6 +44,12 @@ class JointState:
     """Maxwell elements between link and housing: relaxation time [s], stiffness [N*m/rad]; the slowest first."""
 
     @property
+    def plain(self) -> dict[str, float]:
+        """The numbers that files for simulators list."""
+        names = ("temperature", "frequency", "stiffness", "damping", "springs", "friction")
+        return {name: getattr(self, name) for name in names}
+
+    @property
     def stiffest(self) -> float:
         """Stiffness before anything relaxes [N*m/rad]."""
         return self.springs + float(sum(stiffness for _, stiffness in self.modes))

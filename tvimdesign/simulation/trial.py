@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.units import from_si
+
 Array = NDArray[np.float64]
 
 
@@ -15,6 +17,11 @@ class Column:
     name: str
     unit: str
     values: Array
+
+    @property
+    def shown(self) -> list[float]:
+        """The values in that unit."""
+        return [from_si(float(value), self.unit) for value in self.values]
 
 
 @dataclass(frozen=True)
@@ -66,6 +73,13 @@ class Finding:
     meaning: str
     low: float | None = None
     high: float | None = None
+
+    @property
+    def parts(self) -> dict[str, float | None]:
+        """The numbers by what they are; if history decides there is no one value, only the nominal one."""
+        if self.low is None and self.high is None:
+            return {"value": self.value}
+        return {"nominal": self.value, "low": self.low, "high": self.high}
 
 
 @dataclass(frozen=True)

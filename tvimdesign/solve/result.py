@@ -17,7 +17,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.duty import HOUR, ControlResult, DutyResult, control_of, duty_of
 from tvimdesign.solve.nlp import constraints
 from tvimdesign.solve.nlp.constraints import Constraint
-from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.nlp.solution import Solution, YieldReached
 from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL, SIMULATED_MISSED, Progress
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, exceeded, happened, is_met, sorted_by_acceptance
 from tvimdesign.solve.search import Keep, Search, SearchInterrupted, optimize
@@ -74,6 +74,11 @@ class StudyResult:
     def has_design(self) -> bool:
         """Existence of a design: evaluated, optimal, beyond a rating that is not accepted, or below a yield."""
         return _has_design(self.design, self.solution)
+
+    @property
+    def yield_reached(self) -> YieldReached | None:
+        """The account of a yield that the study asks for; None without a design or without one asked for."""
+        return self.solution.yield_reached if self.solution and self.has_design else None
 
     @property
     def accepted_in_vain(self) -> tuple[str, ...]:

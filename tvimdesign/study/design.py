@@ -59,6 +59,11 @@ class Design(BaseModel):
     """How it was found: starts, iterations, constraints with multipliers. Empty for an evaluation."""
 
     @property
+    def table(self) -> Table:
+        """The quantities of the design's mode."""
+        return table_for(self.mode)
+
+    @property
     def rating_notes(self) -> list[str]:
         """Sentences on the ratings that the design exceeds, accepted or not."""
         groups = {"not accepted by its study": self.above_rating, "as its study accepts": self.accepting}

@@ -117,6 +117,10 @@ class JointTask:
             "stroke": f"{from_si(self.stroke, 'deg'):.3g} deg", **({"process": self.process} if self.process else {}),
         }  # fmt: skip
 
+    def draft(self, name: str) -> str:
+        """Return the study of the joint with the hardware for the nearest diameter, whatever it bears."""
+        return study_text(self, hardware_by_fit(self)[0], name)
+
     def with_stiffness(self, stiffness: float) -> Self:
         """Return the task with another stiffness, 20 % to either side."""
         return replace(self, stiffness=((1.0 - _BAND) * stiffness, (1.0 + _BAND) * stiffness))

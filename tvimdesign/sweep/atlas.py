@@ -10,7 +10,7 @@ import json
 import os
 import signal
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
@@ -36,6 +36,7 @@ from tvimdesign.sweep.run_sweep import key_of, records_hash
 
 FAMILIES = "families"  # Folder of the families in the folder of an atlas
 OUTPUTS = (MASS, TORQUE, HOT, CYCLE, "cycle_energy", "envelope_diameter")
+_ALIKE = 0.01  # Share of a cycle by which a design of the front must be faster than a denser one
 _DRAWS = 256  # Cases of the assumed values from which an interval is drawn
 Say = Callable[[str], None]
 
@@ -53,6 +54,24 @@ class AtlasCell:
     limits: tuple[str, ...]
     intervals: Mapping[str, tuple[float, float]]
     """Torque and cycle time with the assumed values anywhere in their ranges, of designs on the kind's front."""
+
+    @property
+    def has_design(self) -> bool:
+        """Existence of a design that meets the cell."""
+        return self.status == OPTIMAL
+
+    @property
+    def cycle_time(self) -> float:
+        """Cycle time [s] of its design."""
+        return self.values[CYCLE]
+
+    @property
+    def band(self) -> list[float] | None:
+        """Ends of density and cycle time; None where the intervals were not drawn."""
+        if {TORQUE, CYCLE} - set(self.intervals):
+            return None
+        share = self.density / self.values[TORQUE]
+        return [share * end for end in self.intervals[TORQUE]] + list(self.intervals[CYCLE])
 
     @property
     def density(self) -> float:
@@ -247,6 +266,15 @@ def _cell(plan: Atlas, kind: str, torque: float, cycle: float, rows: list[Any], 
     status = EMPTY if whole and all(row["status"] == EMPTY for _, row in here) else UNANSWERED
     hardware, nearest = min(here, key=lambda entry: _distance(entry[1]["values"], torque, cycle))
     return AtlasCell(kind, torque, cycle, status, hardware, nearest["values"], tuple(nearest["limits"]), {})
+
+
+def front_of(cells: Iterable[AtlasCell]) -> list[AtlasCell]:
+    """Return the designs that no other holds more for its mass in less time than, the fastest first."""
+    front: list[AtlasCell] = []
+    for cell in sorted((cell for cell in cells if cell.has_design), key=lambda cell: -cell.density):
+        if not front or cell.cycle_time < front[-1].cycle_time * (1.0 - _ALIKE):
+            front.append(cell)
+    return front[::-1]
 
 
 def _meets(plan: Atlas, values: Mapping[str, float], torque: float, cycle: float) -> bool:

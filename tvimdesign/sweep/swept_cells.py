@@ -14,7 +14,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.tree import StudyTree, tree_of_file
 from tvimdesign.sweep.plan import ALWAYS, SweepPlan, plan_of, set_in
-from tvimdesign.sweep.shards import SHARDS, Value, columns
+from tvimdesign.sweep.shards import SHARDS, Column, Shards, Value, columns, rows, write_tables
 
 MOST_DRAWN = 20_000  # Cells of a figure; of more, every second, third, ... is drawn.
 MOST_LISTED = 2_000  # Cells of a page, which a browser draws and sorts; of more, every second, third, ... is there.
@@ -26,8 +26,8 @@ class CellTable:
     """Looks at every row of a table once."""
 
     def __init__(self, plan: SweepPlan) -> None:
-        self._names = [column.name for column in columns(plan)]
-        self._units = {column.name: column.unit for column in columns(plan)}
+        self.plan, self.columns = plan, columns(plan)
+        self._units = {column.name: column.unit for column in self.columns}
         self._every = -(-plan.count // MOST_DRAWN)
         self.every_listed = -(-plan.count // MOST_LISTED)  # Each how many-th cell the page has
         study = plan.first
@@ -52,7 +52,7 @@ class CellTable:
     def seeing(self, rows: Iterable[list[Value]]) -> Iterator[list[Value]]:
         """Hand on every row, once it is seen."""
         for number, values in enumerate(rows):
-            row = dict(zip(self._names, values, strict=True))
+            row = dict(zip(self._units, values, strict=True))
             self._ended[str(row["status"])] += 1
             for name in self.least:
                 self._compare(name, row)
@@ -72,6 +72,13 @@ class CellTable:
             return
         if name not in self.best or value < self.best[name]["value"]:
             self.best[name] = {"cell": row["cell"], "value": value, "unit": self._units[name]}
+
+
+def gather(plan: SweepPlan, keys: Sequence[str], folder: Path) -> CellTable:
+    """Write the tables of a sweep from the shards of its folder; return their summary. Raises OutputError."""
+    seen = CellTable(plan)
+    write_tables(plan, seen.seeing(rows(plan, keys, Shards(folder, plan.columns))), folder)
+    return seen
 
 
 _DIGITS = 12  # Of a number in a sweep's table
@@ -102,6 +109,11 @@ class SweptCells:
     folder: Path
     plan: SweepPlan
     best: tuple[int, ...]  # The feasible cells with the least of each minimised output; else the first with an answer
+
+    @property
+    def columns(self) -> list[Column]:
+        """Every column of its table."""
+        return columns(self.plan)
 
     def listed(self) -> list[dict[str, Any]]:
         """Return rows of the cells for a page, thinned for a browser."""

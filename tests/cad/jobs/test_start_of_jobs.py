@@ -22,7 +22,7 @@ CODE = """
 import sys
 
 import pytest
-from tvimdesign.cad.jobs.main import load_kernel
+from tvimdesign.cad.make import load_kernel
 load_kernel()
 import cadquery
 few = sum(name.startswith("vtkmodules.") for name in sys.modules)

@@ -27,7 +27,6 @@ from support import sample_text, study_path
 import tvimdesign as tvim
 from tests.helpers.figures import faults, signed
 from tvimdesign.base.child_process import start_child
-from tvimdesign.device import table_for
 from tvimdesign.report.figures import analysis_figures, design_figures, theme
 from tvimdesign.report.figures.design_figures import summary
 from tvimdesign.report.figures.virtual_test_figures import drawn
@@ -151,7 +150,7 @@ def result(request: pytest.FixtureRequest) -> StudyResult:
 
 @pytest.fixture(scope="module")
 def data(result: StudyResult) -> dict[str, Any]:
-    return plot_data(result, table_for(result.design.mode))
+    return plot_data(result)
 
 
 def figure_of(figure: str, data: dict[str, Any]) -> Figure:
@@ -163,7 +162,7 @@ def figure_of(figure: str, data: dict[str, Any]) -> Figure:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_an_editor_finds_no_fault(name, result):
-    (drawing,) = [candidate for candidate in drawings(result, table_for(result.design.mode)) if candidate.file == name]
+    (drawing,) = [candidate for candidate in drawings(result) if candidate.file == name]
     assert faults(signed(figure_of(drawing.figure, drawing.data))) == []
 
 

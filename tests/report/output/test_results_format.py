@@ -38,13 +38,13 @@ def result() -> StudyResult:
 
 @pytest.fixture(scope="module")
 def reported(result: StudyResult) -> dict[str, Any]:
-    plain: dict[str, Any] = json.loads(json.dumps(results(result, TABLE), allow_nan=False))
+    plain: dict[str, Any] = json.loads(json.dumps(results(result), allow_nan=False))
     return plain
 
 
 @pytest.fixture(scope="module")
 def rows(result: StudyResult) -> dict[str, dict[str, str]]:
-    text = results_csv(results(result, TABLE)["values"])
+    text = results_csv(results(result)["values"])
     return {row["name"]: row for row in csv.DictReader(io.StringIO(text))}
 
 
@@ -144,7 +144,7 @@ def test_soft_and_stiff_are_shown_as_impedances(bands, soft, stiff):
     stated = f"impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance: 300 N.m/rad{bands}"
     study = read_study_text(f"mode: shear\nmodule: {{{stated}}}\n", "a test")
     answered = answer(study)
-    assert soft_in_words(answered.design, TABLE) == soft
-    assert stiff_in_words(answered.design, TABLE) == stiff
-    assert meaning("softening_time", answered.design, TABLE).endswith(f"(soft: {soft})")
-    assert meaning("stiffening_time", answered.design, TABLE).endswith(f"(stiff: {stiff})")
+    assert soft_in_words(answered.design) == soft
+    assert stiff_in_words(answered.design) == stiff
+    assert meaning("softening_time", answered.design).endswith(f"(soft: {soft})")
+    assert meaning("stiffening_time", answered.design).endswith(f"(stiff: {stiff})")

@@ -33,7 +33,7 @@ from tvimdesign.report.run.first_screen import (
     verdict_of,
 )
 from tvimdesign.report.run.reasons import active
-from tvimdesign.report.run.uncertainty_data import Uncertainty
+from tvimdesign.report.run.uncertainty_data import uncertainty_data
 from tvimdesign.solve.result import answer
 from tvimdesign.study import drawn, read_study, read_study_text
 from tvimdesign.study.resolve import record_checks
@@ -73,7 +73,7 @@ def case(choice: str) -> AnsweredStudy:
     if name == "paper_shear":
         study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 1})})
     result = answer(study)
-    data = Uncertainty(study).data(result.design, 256) if name == choice else {}
+    data = uncertainty_data(study, result.design, 256) if name == choice else {}
     reported: Any = {"doubts": record_checks(study)}
     front: Any = SimpleNamespace(front=None)
     tree: Any = None

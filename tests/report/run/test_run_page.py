@@ -146,7 +146,7 @@ def test_a_step_that_costs_more_than_everything_has_no_room(optimum):
 
 
 def test_each_limit_is_active_touches_or_has_room_in_its_order(optimum):
-    rows = why_rows(optimum, TABLE)
+    rows = why_rows(optimum)
     assert len(rows) == len(optimum.solution.held)
     by_text = {row["limit"]: row for row in rows}
     assert by_text["spring_stiffness_full_stroke >= 5 N·m/rad"]["stands"] == "active"
@@ -163,7 +163,7 @@ def test_each_limit_is_active_touches_or_has_room_in_its_order(optimum):
     assert slack == sorted(slack, key=rooms.__getitem__)
     room = optimum.design.value("spring_stiffness_seven_tenths_stroke") / 5.0 - 1.0
     assert by_text["spring_stiffness_seven_tenths_stroke >= 5 N·m/rad"]["margin"] == pytest.approx(room, rel=1e-3)
-    rows = list(csv.DictReader(io.StringIO(why_csv(optimum, TABLE))))
+    rows = list(csv.DictReader(io.StringIO(why_csv(optimum))))
     first = active(optimum)[0]
     assert rows[0]["limit"] == first.text
     for name, saving in first.sensitivity.items():

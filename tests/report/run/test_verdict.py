@@ -43,9 +43,7 @@ WALL = {
     "held": {"hole_margin >=": 0.3, **FOUR["held"]},
     "intervals": {"hole_margin": {"shares": {"minimum_wall": 0.8}}, **FOUR["intervals"]},
 }
-RUBS = RunWarning(
-    advice_text("friction_share", 13.7, "", table_for("shear")), "", "grave", "it does not return by its springs"
-)
+RUBS = RunWarning(advice_text("friction_share", 13.7, "", "1"), "", "grave", "it does not return by its springs")
 GRAVE = RunWarning("pin fillet safety is 0.93: pins may crack at their fillet", "", "grave")
 HOT = {"output": "joint_stiffness@hot", "sense": "<=", "limit": 1.5}
 COOL = {"softened_temperature": 340.15, "temperature@hot": 373.15, "softened_stiffness": 2.5, "softened_range": 50.0}
@@ -64,14 +62,14 @@ def answer(
     """Return an optimised study as far as a verdict looks at it."""
     every = {"response_time": 60.0, "stiffening_time": 120.0, **(values or {})}
     design = SimpleNamespace(
-        mode="shear", choices={"making_method": "printed"}, status=status, values=every, value=every.__getitem__,
-        above_rating=above,
+        table=table_for("shear"), choices={"making_method": "printed"}, status=status, values=every,
+        value=every.__getitem__, above_rating=above,
         study={"require": require, "robust": robust, "minimize": {"module_mass": 1.0}},
     )  # fmt: skip
     of = {"conflict_set": None, "out_of_time": None, "yield_reached": None, **solution}
-    return cast(
-        StudyResult, SimpleNamespace(design=design, has_design=feasible, checks=checks, solution=SimpleNamespace(**of))
-    )
+    result = SimpleNamespace(design=design, has_design=feasible, checks=checks, solution=SimpleNamespace(**of))
+    result.yield_reached = of["yield_reached"]
+    return cast(StudyResult, result)
 
 
 def named(parts: list[Any]) -> list[Any]:
@@ -173,7 +171,10 @@ def chosen(own: float, robust: dict[str, Any] | None, spring: str = "none") -> s
         20, 20, 0, 0, best=best, between=None, proven=False, improved=0.0, work=none, proof=none, inside=0.0
     )
     design = SimpleNamespace(
-        mode="shear", values={"wire_diameter": own}, choices={"stock_spring": spring}, study={"robust": robust}
+        table=table_for("shear"),
+        values={"wire_diameter": own},
+        choices={"stock_spring": spring},
+        study={"robust": robust},
     )
     answer = SimpleNamespace(solution=SimpleNamespace(choosing=choosing), design=design)
     return chosen_fact(cast(StudyResult, answer))[0].text

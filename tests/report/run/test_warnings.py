@@ -19,7 +19,6 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import table_for
 from tvimdesign.report.output.numbers import label
-from tvimdesign.report.run.blocks.remedies import Remedies, _changes
 from tvimdesign.report.run.blocks.warnings import (
     RunWarning,
     advice_text,
@@ -31,9 +30,10 @@ from tvimdesign.report.run.blocks.warnings import (
     warnings_of,
 )
 from tvimdesign.report.run.first_screen import warning_lines
-from tvimdesign.report.run.uncertainty_data import Uncertainty
+from tvimdesign.report.run.uncertainty_data import uncertainty_data
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
 from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.remedies import Bound, Remedies, _changes
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
@@ -195,21 +195,24 @@ def test_a_requirement_is_tried_beside_the_remedies_before_it():
     design = nominal.design.model_copy(update={"study": study.model_dump(mode="json")})
     optimised = replace(nominal, design=design, solution=cast(Solution, SimpleNamespace()))
 
-    def tried(*lines: str) -> list[tuple[bool, str]]:
+    def tried(*lines: str) -> list[tuple[bool, Bound | None]]:
         remedies = Remedies(optimised, NEVER)
         each = [remedies.of(line.partition(":")[0], [f"require: {{{line}}}"]) for line in lines]
-        return [(remedy.tried, remedy.words) for remedy in each]
+        return [(remedy.tried, remedy.bound) for remedy in each]
 
-    ((possible, words),) = tried('layer_strain: "<= 1.6"')
+    ((possible, bound),) = tried('layer_strain: "<= 1.6"')
     assert not possible
-    ends = words.removesuffix(" limit the layer strain to at least 1.66").split(" and ")
-    assert set(ends) == {"the range of PCL thickness", "the range of PCL outer radius"}  # of the same price
-    assert tried('pcl_area: "<= 700 mm^2"') == [(True, "")]
-    thin, (possible, words) = tried('layer_strain: ">= 5.9"', 'pcl_area: "<= 700 mm^2"')
-    assert thin == (True, "")
+    assert bound
+    assert bound[:2] == ("layer_strain", False)
+    assert bound.extreme.value == pytest.approx(1.664)
+    assert set(bound.extreme.held_by[:2]) == {"the range of pcl_thickness", "the range of pcl_outer_radius"}
+    assert tried('pcl_area: "<= 700 mm^2"') == [(True, None)]
+    thin, (possible, bound) = tried('layer_strain: ">= 5.9"', 'pcl_area: "<= 700 mm^2"')
+    assert thin == (True, None)
     assert not possible
-    assert 700.0 < float(words.partition(" to at least ")[2].partition(" ")[0]) < 900.0
-    assert tried('peak_power: "<= 9 W"') == [(False, "")]  # it depends on the switch
+    assert bound
+    assert 700e-6 < bound.extreme.value < 900e-6
+    assert tried('peak_power: "<= 9 W"') == [(False, None)]  # it depends on the switch
 
 
 def test_a_remedy_with_a_unit_is_tried_in_si():
@@ -248,7 +251,7 @@ def spread(model: UncertaintyModel, module: ResolvedModule) -> DesignUncertainty
 
 @pytest.mark.slow
 def test_the_yield_is_what_tolerate_says(result, module, model):
-    data = Uncertainty(STUDY).data(result.design, SAMPLES)
+    data = uncertainty_data(STUDY, result.design, SAMPLES)
     expected = Tolerancing(module, lambda _: None).analyse(SAMPLES, STUDY.solver.seed)
     assert 0.02 < expected.together.share < 0.98
     assert data["parts_yield"]["share"] == expected.together.share
@@ -259,7 +262,7 @@ def test_the_yield_is_what_tolerate_says(result, module, model):
 
 @pytest.mark.gate
 def test_the_limit_most_in_doubt_is_met_up_to_the_value_named(result, module, model):
-    data = Uncertainty(STUDY).data(result.design, 0)
+    data = uncertainty_data(STUDY, result.design, 0)
     limit = next(limit for limit in model.limits if limit.name == next(iter(data["held"])))
     main = next(iter(data["intervals"][limit.output]["shares"]))
     sense, number = data["needs"].removeprefix(f"{label(main)} ").split(" ", 1)
@@ -297,7 +300,7 @@ def test_an_uncertainty_that_is_not_computed_is_a_warning(tvimdesign, tmp_path, 
         raise TvimError("no start")
 
     (tmp_path / "arm.yaml").write_text(ARM)
-    monkeypatch.setattr(Uncertainty, "data", no_start)
+    monkeypatch.setattr("tvimdesign.report.run.uncertainty_data.uncertainty_data", no_start)
     done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", cwd=tmp_path, spread="on")
     assert done.returncode == 4, done.stderr
     text = " ".join(done.stdout.split())

@@ -45,10 +45,10 @@ def row(sweep_plan: SweepPlan, number: int, mass: float | None) -> list[Any]:
     return [number, *sweep_plan.axis_values(number - 1), *cells, *(outputs[name] for name in names)]
 
 
-def page(sweep_plan: SweepPlan, table: CellTable, out: Path) -> str:
+def page(table: CellTable, out: Path) -> str:
     with Command(out, overwrite=True) as command:
         command.folder.write("cells.csv", "cell\n")
-        command.finish("swept", {}, {}, page=sweep_page(sweep_plan, table, command))
+        command.finish("swept", {}, {}, page=sweep_page(table, command))
     text = (out / FILE).read_text("utf-8")
     html5lib.HTMLParser(strict=True).parse(text)
     return text
@@ -61,7 +61,7 @@ def drawn(text: str) -> dict[str, Any]:
 
 def test_it_says_what_was_swept_and_how_it_ended(tmp_path):
     sweep_plan = plan(GRID)
-    text = page(sweep_plan, seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out")
+    text = page(seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out")
     assert "5 OF 6 CELLS EVALUATED" in text
     assert "<code>pcl_thickness</code> from 0.6 mm to 2 mm, 3 values; <code>rate_model</code>: smi, bending" in text
     assert "grid; each cell is evaluated" in text
@@ -75,14 +75,14 @@ def test_it_says_what_was_swept_and_how_it_ended(tmp_path):
 
 def test_lines_and_brushes_are_those_of_the_cells(tmp_path):
     sweep_plan = plan(GRID)
-    data = drawn(page(sweep_plan, seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
+    data = drawn(page(seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
     assert list(data) == ["curves"]  # over one number: nothing to brush
     mass, size = data["curves"]["panels"]  # none of what never happens
     assert size["y_label"] == "Envelope diameter (mm)"
     lines = {line["label"]: (line["y"], line["hollow"]) for line in mass["lines"]}
     assert lines == {"smi": ([5.0, 4.0, 3.0], [False] * 3), "bending": ([6.0, 2.0], [True] * 2)}
     sweep_plan = plan(CLOUD)
-    data = drawn(page(sweep_plan, seen(sweep_plan, [None, *map(float, range(2, 9))]), tmp_path / "out"))
+    data = drawn(page(seen(sweep_plan, [None, *map(float, range(2, 9))]), tmp_path / "out"))
     assert list(data) == ["brushed"]
     assert data["brushed"]["names"] == ["pcl_thickness", "current", "module_mass", "envelope_diameter"]
     assert [point["number"] for point in data["brushed"]["points"]] == [2, 3, 4, 5, 6, 7, 8]
@@ -93,7 +93,7 @@ def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path, monkeypatch
     monkeypatch.setattr(cell_table, "MOST_LISTED", 3)
     monkeypatch.setattr(cell_table, "MOST_FAILED", 1)
     sweep_plan = plan(CLOUD)
-    text = page(sweep_plan, seen(sweep_plan, [1.0, None, None, 4.0, 5.0, 6.0, 7.0, 8.0]), tmp_path / "out")
+    text = page(seen(sweep_plan, [1.0, None, None, 4.0, 5.0, 6.0, 7.0, 8.0]), tmp_path / "out")
     assert "3 of 8 cells are in this table, one in 3. cells.csv and cells.sqlite have all." in text
     assert "The first 1 of 2; `reason` in cells.csv has all." in text
     assert [point["number"] for point in drawn(text)["brushed"]["points"]] == [1, 4, 7]
@@ -102,7 +102,7 @@ def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path, monkeypatch
 def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers():
     sweep_plan = plan(GRID)
     table = seen(sweep_plan, [5.0, 6.0, 4.0, None, 3.0, 2.0])
-    data = figure_data(sweep_plan, table)
+    data = figure_data(table)
     masses = data["panels"][0]["series"]
     assert {series["label"]: series["y"] for series in masses} == {"smi": [5.0, 4.0, 3.0], "bending": [6.0, 2.0]}
     assert data["panels"][2]["series"][0]["y"] == []  # what never happens
@@ -117,7 +117,7 @@ def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers():
 @pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
 def test_a_sample_is_a_cloud_over_two_axes(method):
     sweep_plan = plan({**CLOUD, "method": method})
-    data = figure_data(sweep_plan, seen(sweep_plan, [float(number + 1) for number in range(8)]))
+    data = figure_data(seen(sweep_plan, [float(number + 1) for number in range(8)]))
     assert data["y"] == "Current (A)"
     assert data["panels"][0]["series"][0]["colour"] == [float(number + 1) for number in range(8)]
     assert len(sweep(data).axes) == 6  # each panel has its scale

@@ -164,7 +164,7 @@ def test_rows_say_what_the_release_says(resolved, trial):
 @pytest.mark.slow
 def test_answer_of_a_study_holds_what_the_swing_shows(resolved):
     result = answer(resolved.study)
-    seen, reported = contact_seen(resolved), results(result, resolved.table)["values"]
+    seen, reported = contact_seen(resolved), results(result)["values"]
     for name, (nominal, low, high) in seen.items():
         assert result.design.values[name] == nominal
         assert reported[name]["value"] == nominal

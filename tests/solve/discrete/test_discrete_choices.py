@@ -162,12 +162,12 @@ def test_a_design_between_listed_sizes_is_infeasible_with_advice():
     )
     result = answer(study)
     assert result.design.status == NO_COMBINATION
-    message = complaint(result, study.table)
+    message = complaint(result)
     assert re.search(r"With wire_diameter 2\.[45]\d* mm there is a design: list values nearer", message)
     assert "time_limit" not in message
     assert result.solution is not None
     late = replace(result, solution=replace(result.solution, out_of_time=60.0))
-    assert "raise `solver.time_limit`" in complaint(late, study.table)
+    assert "raise `solver.time_limit`" in complaint(late)
     assert "solver.starts" not in message  # no other start helps
 
 

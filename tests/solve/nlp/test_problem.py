@@ -11,13 +11,13 @@ from support import fine, sample_text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
+from tvimdesign.solve.anchored_search import optimum_near
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.solve.nlp.decision_vector import ExtendedProblem
 from tvimdesign.solve.nlp.problem import LATEST
 from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Run
 from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
-from tvimdesign.solve.optimizer.optimum_near import optimum_near
 from tvimdesign.study import Study, given, read_study_text, read_tree
 from tvimdesign.study.tree import tree_of_text, with_settings
 

@@ -18,16 +18,15 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.device import table_for
 from tvimdesign.report.run.blocks.facts import _manufacturing
 from tvimdesign.report.run.blocks.verdict import verdict
-from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.reasons import complaint
-from tvimdesign.report.run.uncertainty_data import Uncertainty, below_yield, changes, lever, yield_of
+from tvimdesign.report.run.uncertainty_data import below_yield, changes, lever, uncertainty_data
 from tvimdesign.simulation.working_cycle.device_functions import resolve_design
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.solution import EasedRequirement, TightenedTolerance, YieldReached
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.nlp.spread import Contributor
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.pareto.front import Front, trace_front
+from tvimdesign.solve.pareto.front import Front, kept_at, trace_front
 from tvimdesign.solve.pareto.tradeoff import Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import optimize
@@ -105,7 +104,7 @@ def test_each_limit_is_met_in_as_many_plausible_cases_as_asked():
         study = read_study_text(UNMEASURED + f"robust: {{{target}}}\n", "a test")
         result = answer(study)
         assert result.design.status == "optimal"
-        held.append(Uncertainty(study).data(result.design)["held"].get("retainer_thread_margin >=", 1.0))
+        held.append(uncertainty_data(study, result.design)["held"].get("retainer_thread_margin >=", 1.0))
     assert held[0] < 0.5
     assert held[1] == pytest.approx(0.9, abs=0.02)
 
@@ -124,11 +123,11 @@ def test_a_yield_is_reached_from_whatever_designs_are_drawn_beside_it(seed):
 def test_what_a_yield_costs_is_reported():
     margined, _ = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
     plain, _ = _solved(ALGEBRAIC)
-    reached = yield_of(margined)
+    reached = margined.yield_reached
     assert reached.nominal["springs_mass"] == pytest.approx(plain.design.values["springs_mass"], rel=1e-6)
     assert reached.nominal_together == pytest.approx(0.5, abs=0.02)
     assert 0.9 <= reached.together <= min(reached.shares.values())
-    (line,) = changes(margined, reached.nominal, margined.design.values, read_study_text(ALGEBRAIC, "a test").table)
+    (line,) = changes(margined, reached.nominal, margined.design.values)
     share = 100.0 * (margined.design.values["springs_mass"] / plain.design.values["springs_mass"] - 1.0)
     assert line.endswith(f"({share:+.2g} %)")
 
@@ -147,7 +146,7 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance():
     assert "spring_stiffness" in message
     assert "spread by wire_diameter" in message
     assert re.search("At these sizes (no tolerance alone gives 95 %: )?(wire|coil) diameter with", message)
-    data = {"parts_yield": {"share": yield_of(result).together}, "tolerances": "study"}
+    data = {"parts_yield": {"share": result.yield_reached.together}, "tolerances": "study"}
     (fact,) = _manufacturing(result, data)
     assert re.match(r"\d+ of 100 modules meet every limit, [\d.]+ % meet ", fact.parts[0])
     assert re.match(r"other sizes give 95 % if .+ <= [\d.]+ N·m/rad \(5.1 N.m/rad asked\)", fact.parts[1])
@@ -164,13 +163,15 @@ def test_an_unreachable_yield_names_the_limit_and_the_tolerance():
 def test_an_eased_requirement_is_rounded_to_what_is_easier(text, to, words):
     tolerance = TightenedTolerance("wire_diameter", 2e-5, 0.0, 0.5)
     lost = YieldReached(0.95, 4096, {}, 0.5, (), 0.5, {}, tolerance, EasedRequirement(text, to))
-    assert lever(lost, table_for("shear"))[0] == f"other sizes give 95 % if {words}"
+    result: Any = SimpleNamespace(yield_reached=lost, design=SimpleNamespace(table=table_for("shear")))
+    assert lever(result)[0] == f"other sizes give 95 % if {words}"
 
 
 def _eased(text: str) -> str:
     """Return the study with the requirement that its result eases at the value that the result names."""
-    assert (other := yield_of(answer(read_study_text(text, "a test")))) is None or other.eased is None  # as sweeps do
-    reached = yield_of(answer(read_study_text(text, "a test"), search=partial(optimize, eases=True)))
+    other = answer(read_study_text(text, "a test")).yield_reached
+    assert other is None or other.eased is None  # as sweeps do
+    reached = answer(read_study_text(text, "a test"), search=partial(optimize, eases=True)).yield_reached
     assert reached is not None
     assert reached.eased is not None
     output, sense, limit = reached.eased.text.split(" ", 2)
@@ -188,7 +189,7 @@ def test_the_requirement_that_is_eased_to_the_named_value_gives_the_yield(most):
     assert eased != text
     result = answer(read_study_text(eased, "a test"))
     assert result.design.status == "optimal"
-    assert yield_of(result).together >= 0.95
+    assert result.yield_reached.together >= 0.95
 
 
 @pytest.mark.slow
@@ -231,7 +232,7 @@ def test_a_conflict_with_a_yield_names_places_with_margins():
     text = ALGEBRAIC.replace('">= 5 N.m/rad"}', '">= 5 N.m/rad", springs_mass: "<= 1 g"}')
     for robust_line, margins in (("", False), ("robust: {yield: 95 %}\n", True)):
         study = read_study_text(f"{text}{robust_line}", "a test")
-        words = complaint(answer(study), study.table)
+        words = complaint(answer(study))
         assert "cannot hold" in words
         assert ("g with 2.5 deviations of margin" in words) == margins
         assert "The values are nominal" not in words
@@ -243,7 +244,7 @@ def test_more_deviations_than_a_band_has_room_for_are_reported():
     study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")
     result = answer(study)
     assert not result.has_design
-    assert "(`robust`): ask for fewer, or spread less" in complaint(result, study.table)
+    assert "(`robust`): ask for fewer, or spread less" in complaint(result)
 
 
 def test_few_modules_reveal_a_low_yield_and_more_continue_them():

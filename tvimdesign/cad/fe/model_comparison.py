@@ -13,11 +13,12 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record, own_data
-from tvimdesign.cad.fe.run_solvers import Solved, export_parts, run_solvers
+from tvimdesign.cad.fe.run_solvers import Solved, export_parts, require_fe, run_solvers
+from tvimdesign.cad.make import load_kernel
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.contacts import tightened_force
 from tvimdesign.physics.solids import fasteners, plates, structure, wedge
-from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design
 
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}  # Idealizations that the drawn parts do not have
@@ -59,10 +60,18 @@ def refuse_other_parts(module: ResolvedModule) -> None:
         )
 
 
+def refuse_unsolvable(design: Design, python: str) -> None:
+    """Raise InputError for an interpreter without solvers, and for parts that they do not draw."""
+    require_fe(python)
+    refuse_other_parts(resolve_design(design))
+
+
 def compare_with_fe(
-    design: Design, module: ResolvedModule, work: Path, python: str, progress: Callable[[str], None]
+    design: Design, work: Path, python: str, progress: Callable[[str], None]
 ) -> tuple[list[Compared], dict[str, Solved]]:
     """Export the parts and solve in a folder of work; return the rows and what each solver found."""
+    load_kernel()
+    module = resolve_design(design)
     progress("verify: drawing the parts")
     export_parts(design, work / "parts")
     solved = run_solvers(SOLVERS, work / "parts", work, python, lambda text: progress(f"verify: {text}"))

@@ -8,6 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
 from tvimdesign.study.design import Design
@@ -26,6 +28,14 @@ class Solved:
     fine: dict[str, float]  # By the names in its file; stiffness in N*m/rad, stress in MPa at one newton metre
     coarse: dict[str, float]  # Values on the coarser mesh
     field: Path  # Surface and its stress: `points`, `triangles`, `values`, `ways`
+
+    def write_picture(self, path: Path, title: str) -> None:
+        """Write the picture of the field as PNG."""
+        from tvimdesign.cad.render.render import write_field_picture
+
+        with np.load(self.field) as field:
+            points, triangles, values, ways = (field[part] for part in ("points", "triangles", "values", "ways"))
+        write_field_picture(path, points, triangles, values, ways, title)
 
 
 def require_fe(python: str) -> None:

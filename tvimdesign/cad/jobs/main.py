@@ -17,7 +17,6 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.atomic_files import atomic_write
@@ -28,7 +27,7 @@ from tvimdesign.base.units import from_si
 from tvimdesign.base.user_cache import FOLDER_VARIABLE, cache_folder
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
-from tvimdesign.cad.make import HALF_MADE, WAITING
+from tvimdesign.cad.make import HALF_MADE, WAITING, load_kernel
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
 
@@ -37,27 +36,9 @@ if TYPE_CHECKING:
 
 _NEEDED = "tvimdesign.cad.jobs.build_plan"  # Module that loads the CAD kernel, and all that draws with it
 
-_BRIDGED = "vtk"
-KERNEL = "cadquery"
 _LETTERS = "abcdefghijklmnopqrstuvwxyz 0123456789.,-() ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 _CACHE_NAME = "cad"  # Name of the user's folder of parts
-
-
-def load_kernel() -> None:
-    """Import CadQuery without the whole of VTK, in a fifth of the time; who imports `vtk` afterwards gets it whole.
-
-    OCP's bridge to VTK imports all 150 modules of it, where it finds one called `vtk`. Nothing here crosses that
-    bridge: pictures are rendered from triangles, with the few modules of VTK that this takes.
-    """
-    if KERNEL in sys.modules or _BRIDGED in sys.modules:
-        import_module(KERNEL)
-        return
-    sys.modules[_BRIDGED] = ModuleType(_BRIDGED)
-    try:
-        import_module(KERNEL)
-    finally:
-        del sys.modules[_BRIDGED]
 
 
 def warm_up(mode: str = "") -> None:

@@ -22,16 +22,7 @@ STOPS = 2  # Teeth of the rotor, each between two posts
 SLIVER = 1e-4  # Size [m] that posts have where there is no room for them, so that the search may pass there
 
 
-@places.output("rad")
-def stop_angle(m: Module) -> Scalar:
-    """Angle from rest at which the rotor meets its stops, to either side."""
-    return m.stroke + m.stop_margin
-
-
-@places.output("mm")
-def stop_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the stops' posts, which the rotor plate and the corners of its teeth clear."""
-    return m.rotor_radius + np.fmax(m.running_clearance, m.corner_radius)
+places.formulas("hard_stops")
 
 
 @places.output("mm")
@@ -39,24 +30,6 @@ def stop_width(m: Module) -> Scalar:
     """Radial width of the stops' faces: `stop_depth`, or what the feet's holes in the cover leave."""
     room = m.placement_radius - m.mount_boss_radius - m.stop_inner_radius
     return np.fmax(evened_least(m.stop_depth, room), SLIVER)
-
-
-@places.output("mm")
-def stop_outer_radius(m: Module) -> Scalar:
-    """Outer radius of the stops' posts and of the rotor's teeth."""
-    return m.stop_inner_radius + m.stop_width
-
-
-@places.output("mm")
-def stop_contact_radius(m: Module) -> Scalar:
-    """Radius of the middle of the stops' faces."""
-    return m.stop_inner_radius + 0.5 * m.stop_width
-
-
-@places.output("deg")
-def stop_tooth_span(m: Module) -> Scalar:
-    """Angle that a tooth of the rotor covers."""
-    return m.stop_tooth_width / m.stop_contact_radius
 
 
 @places.helper(sprung=True)
@@ -79,12 +52,6 @@ def stop_post_span(m: Module) -> Scalar:
     return np.fmax(length, SLIVER) / m.stop_contact_radius
 
 
-@places.output("mm")
-def stop_post_length(m: Module) -> Scalar:
-    """Length of a post along the middle of its faces."""
-    return m.stop_post_span * m.stop_contact_radius
-
-
 @weights.helper()
 def stop_posts_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the stops' posts."""
@@ -98,22 +65,13 @@ def stop_teeth_section(m: Module) -> Section:
     return tooth(m.stop_tooth_span, m.rotor_radius, m.stop_outer_radius, m.corner_radius).times(STOPS)
 
 
-@strengths.helper()
-def borne_torque(m: Module) -> Scalar:
-    """Torque that stops, feet and the arcs' edges bear [N*m]: what the joint holds, `load_torque` at most."""
-    return np.fmin(m.holding_torque, m.load_torque)
+strengths.formulas("hard_stops.strengths")
 
 
 @strengths.output("N")
 def stop_force(m: Module) -> Scalar:
     """Force on each of two opposite posts under the torque that the frozen joint bears."""
     return m.borne_torque / (STOPS * m.stop_contact_radius)
-
-
-@strengths.output("MPa")
-def stop_contact_stress(m: Module) -> Scalar:
-    """Pressure between a tooth and its post under the torque that the frozen joint bears."""
-    return m.stop_force / (m.stop_width * m.rotor_thickness)
 
 
 @strengths.output("MPa")
@@ -134,14 +92,6 @@ PARTS = ("stop_face_safety", "stop_post_safety", "stop_tooth_safety")
 
 
 strengths.margins("hard_stops.strengths")
-
-
-@strengths.output("N*m", headline=True)
-def stop_torque(m: Module) -> Scalar:
-    """Torque that the stops bear to either side, by `holding_safety` below the one at which a post or tooth yields."""
-    return m.borne_torque * np.fmin(np.fmin(m.stop_face_safety, m.stop_post_safety), m.stop_tooth_safety)
-
-
 rules.margins("hard_stops")
 
 

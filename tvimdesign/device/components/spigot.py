@@ -21,10 +21,7 @@ strengths = QuantityGroup("Impedance", WITH_SPIGOT)
 rules = QuantityGroup("Gaps", WITH_SPIGOT)
 
 
-@places.output("mm", hidden=True)
-def spigot_depth(m: Module) -> Scalar:
-    """Height of the spigot; zero without."""
-    return m.spigot_height
+places.formulas("spigot")
 
 
 @places.output("mm", hidden=True)
@@ -33,34 +30,10 @@ def spigot_room(m: Module) -> Scalar:
     return 0.5 * m.slip_clearance / np.tan(m.spigot_angle)
 
 
-@places.output("mm", hidden=True, requires=())
-def core_top_level(m: Module) -> Scalar:
-    """Upper end of the core."""
-    return m.link_bottom_level - m.spigot_room
-
-
-@places.output("mm", hidden=True, requires=())
-def link_screw_mouth_level(m: Module) -> Scalar:
-    """Level at which the holes of the link screws begin in the core: its upper end, or the bottom of a slot."""
-    return m.core_top_level - m.spigot_depth
-
-
-@places.output("mm")
-def spigot_width(m: Module) -> Scalar:
-    """Width of the spigot at the link; zero without. The slot is narrower by `slip_clearance`."""
-    return m.spigot_ratio * m.core_radius
-
-
 @places.output("mm", hidden=True)
 def spigot_end_width(m: Module) -> Scalar:
     """Width of the spigot at its end; zero without."""
     return m.spigot_width - 2.0 * m.spigot_height * np.tan(m.spigot_angle)
-
-
-@places.output("mm", hidden=True)
-def spigot_reach(m: Module) -> Scalar:
-    """Distance of the spigot's ends from the axis, its corners on the core's rim; zero without."""
-    return np.sqrt(m.core_radius**2 - 0.25 * m.spigot_width**2)
 
 
 @weights.helper(default=NOTHING)

@@ -7,7 +7,7 @@ rotor need not come down with the blocks: a running clearance is below and above
 
 import numpy as np
 
-from tvimdesign.device.core.heater_form import CUT, WITH_TILES
+from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.solids import shapes
 from tvimdesign.physics.solids.shapes import Section
@@ -15,55 +15,10 @@ from tvimdesign.physics.solids.shapes import Section
 places = QuantityGroup("Layout")
 
 
-@places.output("mm", hidden=True)
-def rotor_bottom_level(m: Module) -> Scalar:
-    """Lower face of the rotor plate: a running clearance below and above the blocks."""
-    return m.block_height + 2.0 * m.running_clearance
-
-
-@places.output("mm")
-def vane_height(m: Module) -> Scalar:
-    """Height of the vanes of rotor and housing, which keep a running clearance from floor and plate."""
-    return m.block_height + m.running_clearance
-
-
-@places.helper()
-def plate_lean(m: Module) -> Scalar:
-    """Angle at which the leaning rotor's vanes are down on the floor [rad], its other side held at the hub."""
-    return m.running_clearance / (m.hub_radius + m.pcl_outer_radius)
+places.formulas("vane_layout")
 
 
 places.same("pcl_depth", "block_depth", "Way of heat and load through the PCL [m]")
-
-
-@places.output("mm")
-def block_width(m: Module) -> Scalar:
-    """Radial width of blocks, pads and vanes."""
-    return m.pcl_outer_radius - m.pcl_inner_radius
-
-
-@places.output("mm", hidden=True)
-def pocket_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the pads' pockets: open there, as the vanes are."""
-    return m.pcl_inner_radius
-
-
-@places.output("mm", hidden=True)
-def pocket_outer_radius(m: Module) -> Scalar:
-    """Outer radius of the pads' pockets: open there, as the vanes are."""
-    return m.pcl_outer_radius
-
-
-@places.output("deg")
-def block_angle(m: Module) -> Scalar:
-    """Angle each block covers."""
-    return m.block_depth / m.pcl_mean_radius
-
-
-@places.output("deg")
-def rotor_vane_angle(m: Module) -> Scalar:
-    """Angle each vane of the rotor covers."""
-    return m.vane_thickness / m.pcl_mean_radius
 
 
 @places.output("deg")
@@ -118,16 +73,7 @@ def block_area(m: Module) -> Scalar:
     return m.block_width * m.block_height
 
 
-@weights.output("mm^2", headline=True)
-def pcl_area(m: Module) -> Scalar:
-    """Area of all PCL blocks together towards their pads."""
-    return 2.0 * m.vane_count * m.block_area
-
-
-@weights.output("mm^3")
-def pcl_volume(m: Module) -> Scalar:
-    """Volume of all PCL blocks together; a sector has its depth at the mean radius throughout."""
-    return m.pcl_area * m.block_depth
+weights.formulas("vane_layout.weights")
 
 
 @weights.output("mm^3")
@@ -135,12 +81,6 @@ def heater_volume(m: Module) -> Scalar:
     """Volume of all heaters together: pads with the faces of the blocks, or rectangular tiles."""
     area = m.pcl_area if m.heater_form == CUT else m.heater_count * m.heater_length * m.heater_width
     return area * m.heater_thickness
-
-
-@weights.output("mm^3", requires=WITH_TILES)
-def spreader_volume(m: Module) -> Scalar:
-    """Volume of all spreaders together, which have the faces of the blocks; zero without."""
-    return m.pcl_area * m.spreader_depth
 
 
 def _slot_section(m: Module) -> Section:
@@ -216,9 +156,3 @@ def rotor_vanes(m: Module) -> Section:
 def rotor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the rotor with its vanes, less the recesses for liners."""
     return m.bare_rotor_moments.plus(m.rotor_vanes.times(m.vane_height)) - m.liner_recess
-
-
-@places.output("mm")
-def freezing_travel(m: Module) -> Scalar:
-    """Axial travel of the rotor as the PCL freezes: zero, blocks have clearance above and below."""
-    return 0.0 * m.melting_growth

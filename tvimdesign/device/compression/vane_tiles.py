@@ -19,7 +19,6 @@ wires go down through a hole of the floor, through which it is put in.
 
 import numpy as np
 
-from tvimdesign.device.components.liner_and_adhesive import WITH_PADS
 from tvimdesign.device.core.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.layers import block
@@ -34,12 +33,6 @@ tile_rules = QuantityGroup("Gaps", WITH_TILES)
 kinds.choices("vane_tiles")
 
 
-@tile_places.helper(requires=())
-def pocket_count(m: Module) -> Scalar:
-    """Pockets for heaters [1]: one in each face of the housing's vanes."""
-    return 2.0 * m.vane_count
-
-
 tile_places.same("tiles_per_pocket", "tiles_per_block", "Rectangular heaters in each pocket [1]", requires=())
 tile_places.same(
     "slot_count", "tiles_per_block", "Slots of a housing vane [1]: one behind each tile; one behind pads", default=1.0
@@ -52,16 +45,7 @@ def lead_volume(m: Module) -> Scalar:
     return 0.0 * m.lead_diameter
 
 
-@tile_places.output("mm")
-def tile_spacing(m: Module) -> Scalar:
-    """Distance from one tile of a row to the next."""
-    return m.block_width / m.tiles_per_block
-
-
-@tile_places.output("mm")
-def tile_window(m: Module) -> Scalar:
-    """Width of a tile that its slot leaves open."""
-    return m.slot_share * m.heater_length
+tile_places.formulas("vane_tiles")
 
 
 @tile_places.output("mm")
@@ -75,12 +59,6 @@ def tile_slot_radius(m: Module) -> Scalar:
 def tile_slot_pitch(m: Module) -> Scalar:
     """Distance of a vane's slots along its middle."""
     return m.tile_spacing * np.cos(0.5 * m.housing_vane_angle)
-
-
-@tile_places.output("mm^2")
-def tile_seat_area(m: Module) -> Scalar:
-    """Area with which one tile bears on its vane: all of it but the slot's."""
-    return m.heater_length * m.heater_width - m.tile_window * m.slot_height
 
 
 tile_rules.margins("vane_tiles.tile_rules")
@@ -109,10 +87,7 @@ def pad_press_stiffness(m: Module) -> Scalar:
     return structure.series(tiles, m.spreader_youngs_modulus * m.block_area / m.spreader_thickness)
 
 
-@loads.helper(requires=WITH_TILES)
-def tile_edge_rise(m: Module) -> Scalar:
-    """Pressure at a tile's upper edge over its mean [1], 1 + 6 e/w: the block's middle is e above the tile's."""
-    return 1.0 + 3.0 * (m.block_height - m.heater_width) / m.heater_width
+loads.formulas("vane_tiles.loads")
 
 
 @loads.output("N*m", requires=WITH_TILES)
@@ -128,12 +103,6 @@ def heater_shear_share(m: Module) -> Scalar:
     return np.sin(0.5 * m.rotor_vane_angle + m.block_angle - m.block_lean_out)
 
 
-@loads.output("N*m", requires=WITH_PADS)
-def heater_shear_holding_torque(m: Module) -> Scalar:
-    """Torque at which the blocks shear the pads in the vanes as hard as the pads' record allows."""
-    return m.vane_count * m.heater_shear_limit * m.block_area / m.heater_shear_share * m.pcl_mean_radius
-
-
 @loads.output("N*m", requires=WITH_TILES)
 def lower_seat_holding_torque(m: Module) -> Scalar:
     """Torque that the adhesive below the spreaders bears along them, by `holding_safety` below its strength."""
@@ -146,16 +115,7 @@ weights = QuantityGroup("Size and weight")
 rules = QuantityGroup("Gaps")
 
 
-@places.output("1")
-def thermistor_count(_: Module) -> Scalar:
-    """Thermistors by the layer: one at the end of the first pad."""
-    return 1.0
-
-
-@places.output("mm")
-def thermistor_seat_diameter(m: Module) -> Scalar:
-    """Diameter of the hole in the floor through which the thermistor is put in; zero without."""
-    return np.fmin(m.thermistor_diameter + 2.0 * m.slip_clearance, 1e3 * m.thermistor_diameter)
+places.formulas("vane_tiles.places")
 
 
 @places.output("mm")

@@ -50,16 +50,7 @@ def heater_count(m: Module) -> Scalar:
     return m.pocket_count
 
 
-@places.output("mm")
-def spreader_depth(m: Module) -> Scalar:
-    """Depth the spreader takes of the pocket behind the PCL; zero without one."""
-    return m.spreader_thickness
-
-
-@places.output("mm", requires=())
-def pad_depth(m: Module) -> Scalar:
-    """Depth of the pockets for the heaters and the spreader on them."""
-    return m.heater_thickness + m.spreader_depth
+places.formulas("heater_form")
 
 
 weights.from_template("spreader", "all spreaders together; zero without", template_mass, "g")

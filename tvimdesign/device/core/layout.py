@@ -13,12 +13,7 @@ quantities = QuantityGroup("Layout")
 
 materials.choices("materials")
 quantities.inputs()
-
-
-@quantities.output("1", sprung=True)
-def spring_count(m: Module) -> Scalar:
-    """Torsion springs, half of them of either hand."""
-    return 2.0 * m.spring_pairs
+quantities.formulas("layout")
 
 
 quantities.same("foot_count", "spring_count", "Feet of the housing: one between each two springs", "1")
@@ -28,12 +23,6 @@ quantities.same("foot_count", "spring_count", "Feet of the housing: one between 
 def pin_radius(m: Module) -> Scalar:
     """Distance of the rotor pins from the axis."""
     return m.pin_radius_ratio * m.placement_radius
-
-
-@quantities.output("mm", sprung=True)
-def tang_bend_radius(m: Module) -> Scalar:
-    """Mean radius of the bend between a spring's coils and its tang."""
-    return (m.tang_bend_ratio + 0.5) * m.wire_diameter
 
 
 @quantities.output("mm", sprung=True)
@@ -55,36 +44,6 @@ def leg_arm(m: Module) -> Scalar:
     return np.sqrt((m.placement_radius - m.pin_radius) ** 2 - m.leg_offset**2)
 
 
-@quantities.output("mm", sprung=True)
-def leg_length(m: Module) -> Scalar:
-    """Length of the rotor-side leg."""
-    return m.leg_arm + m.leg_overhang
-
-
-@quantities.output("mm")
-def rotor_radius(m: Module) -> Scalar:
-    """Radius of the rotor plate."""
-    return m.pcl_outer_radius + m.rotor_rim
-
-
-@quantities.output("mm")
-def housing_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the housing wall: it clears the springs, and leaves adjusters their pockets."""
-    return m.placement_radius + np.fmax(m.spring_reach + m.radial_clearance, m.adjuster_radius + m.slip_clearance)
-
-
-@quantities.output("mm")
-def housing_outer_radius(m: Module) -> Scalar:
-    """Outer radius of the housing."""
-    return m.housing_inner_radius + m.wall_thickness
-
-
-@quantities.output("mm")
-def link_half_width(m: Module) -> Scalar:
-    """Half the width of the output link."""
-    return m.core_radius + m.link_rim
-
-
 @quantities.output("mm")
 def link_length(m: Module) -> Scalar:
     """Distance of the output link's end hole from the axis; the link's round end is flush with the housing."""
@@ -97,12 +56,6 @@ def link_bolt_circle_radius(m: Module) -> Scalar:
     return m.link_bolt_ratio * m.core_radius if m.link_screw_count > 1 else 0.0
 
 
-@quantities.output("mm", sprung=True)
-def coil_pitch(m: Module) -> Scalar:
-    """Axial pitch of the coils."""
-    return m.wire_diameter + m.coil_gap
-
-
 @quantities.output("1", sprung=True)
 def helix_slope(m: Module) -> Scalar:
     """Rise of the wire over its way around the coil, tan of the helix angle."""
@@ -110,39 +63,9 @@ def helix_slope(m: Module) -> Scalar:
 
 
 @quantities.output("mm", sprung=True)
-def coil_start_level(m: Module) -> Scalar:
-    """Level of the wire's centre where the coils start; the tang's bend below it ends on the floor."""
-    return m.tang_bend_radius / np.sqrt(1.0 + m.helix_slope**2)
-
-
-@quantities.output("mm", sprung=True)
 def coil_end_level(m: Module) -> Scalar:
     """Level of the wire's centre where the coils of the preloaded spring end and the rotor-side leg begins."""
     return m.coil_start_level + m.coil_pitch * (m.coil_count + m.preload_angle / (2.0 * np.pi))
-
-
-@quantities.output("mm", sprung=True)
-def leg_top_level(m: Module) -> Scalar:
-    """Highest point of a rotor-side leg, which keeps rising as the coil does."""
-    return m.coil_end_level + m.helix_slope * m.leg_length + 0.5 * m.wire_diameter
-
-
-@quantities.output("mm")
-def rotor_top_level(m: Module) -> Scalar:
-    """Upper face of the rotor plate."""
-    return m.rotor_bottom_level + m.rotor_thickness
-
-
-@quantities.output("mm", sprung=True)
-def pin_top_level(m: Module) -> Scalar:
-    """Upper end of the rotor pins."""
-    return m.leg_top_level + m.axial_clearance
-
-
-@quantities.helper(sprung=True)
-def room_below_legs(m: Module) -> Scalar:
-    """Height between the rotor plate and the legs less a running clearance [m]."""
-    return m.coil_end_level - 0.5 * m.wire_diameter - m.rotor_top_level - m.running_clearance
 
 
 LEAST_FILLET = 1e-4
@@ -175,12 +98,6 @@ def foot_fillet(m: Module) -> Scalar:
     between = 0.5 * (m.pin_radius - 0.5 * m.pin_foot_diameter - m.core_radius)
     room = evened_least(m.room_below_legs, evened_least(to_rim, between) - LEAST_FILLET)
     return np.fmax(evened_least(m.largest_foot_fillet, room), LEAST_FILLET)
-
-
-@quantities.output("mm")
-def link_bottom_level(m: Module) -> Scalar:
-    """Lower face of the output link and upper end of the core."""
-    return m.rim_level + m.cover_height + m.axial_clearance
 
 
 @quantities.output("mm", sprung=True)

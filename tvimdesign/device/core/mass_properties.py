@@ -129,12 +129,6 @@ def pin_fillets(m: Module) -> Section:
     return Section(of_pin.area, of_pin.polar + of_pin.area * m.pin_radius**2).times(m.spring_count)
 
 
-@quantities.helper(sprung=True)
-def springs_inertia(m: Module) -> Scalar:
-    """Moment of inertia about the axis of springs and adjusters, as rings about the springs' axes."""
-    return (m.springs_mass + m.adjusters_mass) * (m.placement_radius**2 + 0.25 * m.coil_diameter**2)
-
-
 def _core_drill_points(m: Module) -> Section:
     """Return the volume and its polar moment about the axis, of the points of the rotor's blind holes; nothing where
     printed."""
@@ -172,16 +166,7 @@ quantities.from_template(
 quantities.from_template("rotor", "the rotor with its core and pins", template_volume, "mm^3")
 
 
-@quantities.output("mm^3")
-def link_volume(m: Module) -> Scalar:
-    """Volume of the output link."""
-    return m.link_section.area * m.link_thickness + m.spigot_moments.area
-
-
-@quantities.output("mm^3")
-def retainer_volume(m: Module) -> Scalar:
-    """Volume of the retainer."""
-    return m.retainer_section.area * m.retainer_thickness
+quantities.formulas("mass_properties")
 
 
 quantities.from_template("housing", "the housing", template_made_mass, "g", name="housing_mass")
@@ -190,19 +175,7 @@ quantities.from_template("link", "the output link", template_made_mass, "g", nam
 quantities.from_template("retainer", "the retainer", template_made_mass, "g", name="retainer_mass")
 
 
-@quantities.output("g", sprung=True)
-def springs_mass(m: Module) -> Scalar:
-    """Mass of all springs together."""
-    return m.spring_count * m.spring_volume * m.spring_density
-
-
 quantities.from_template("pcl", "all PCL together", template_mass, "g")
-
-
-@quantities.output("kg/m^3")
-def heater_density(m: Module) -> Scalar:
-    """Mass of the heater over its volume."""
-    return m.heater_scale * m.heater_unit_mass / m.heater_volume
 
 
 quantities.from_template("heater", "all heaters together", template_mass, "g")
@@ -219,12 +192,6 @@ def module_mass(m: Module) -> Scalar:
 
 
 quantities.from_template("rotor", "the rotor about the axis", template_made_inertia, "kg*mm^2", name="rotor_inertia")
-
-
-@quantities.output("kg*mm^2")
-def link_inertia(m: Module) -> Scalar:
-    """Moment of inertia of the output link about the axis."""
-    return (m.link_section.polar * m.link_thickness + m.spigot_moments.polar) * m.structure_density
 
 
 @quantities.output("kg*mm^2", headline=True)

@@ -56,43 +56,28 @@ class Encoder(NamedTuple):
 @quantities.helper(default=None)
 def drive_motor(m: Module) -> Motor:
     """The motor with its bearings, diameters as radii; None without one."""
+    motor, bearing = m.motor.value, m.motor_bearing.value
+    same = ("stator_length", "rotor_length", "stator_mass", "rotor_mass", "rotor_inertia", "torque_constant",
+            "winding_resistance", "continuous_torque", "peak_torque", "rated_speed")  # fmt: skip
+    halved = ("stator_bore", "rotor_bore")
     return Motor(
-        stator_radius=0.5 * m.motor.value("stator_diameter"),
-        stator_bore=0.5 * m.motor.value("stator_bore"),
-        stator_length=m.motor.value("stator_length"),
-        rotor_radius=0.5 * m.motor.value("rotor_diameter"),
-        rotor_bore=0.5 * m.motor.value("rotor_bore"),
-        rotor_length=m.motor.value("rotor_length"),
-        stator_mass=m.motor.value("stator_mass"),
-        rotor_mass=m.motor.value("rotor_mass"),
-        rotor_inertia=m.motor.value("rotor_inertia"),
-        torque_constant=m.motor.value("torque_constant"),
-        winding_resistance=m.motor.value("winding_resistance"),
-        continuous_torque=m.motor.value("continuous_torque"),
-        peak_torque=m.motor.value("peak_torque"),
-        rated_speed=m.motor.value("rated_speed"),
-        bearing_bore=0.5 * m.motor_bearing.value("bore"),
-        bearing_radius=0.5 * m.motor_bearing.value("outer_diameter"),
-        bearing_width=m.motor_bearing.value("width"),
-        inner_shoulder=0.5 * m.motor_bearing.value("inner_shoulder"),
-        outer_shoulder=0.5 * m.motor_bearing.value("outer_shoulder"),
-        bearing_rating=m.motor_bearing.value("static_load_rating"),
-    )
+        stator_radius=0.5 * motor("stator_diameter"), rotor_radius=0.5 * motor("rotor_diameter"),
+        bearing_bore=0.5 * bearing("bore"), bearing_radius=0.5 * bearing("outer_diameter"),
+        bearing_width=bearing("width"), inner_shoulder=0.5 * bearing("inner_shoulder"),
+        outer_shoulder=0.5 * bearing("outer_shoulder"), bearing_rating=bearing("static_load_rating"),
+        **{name: motor(name) for name in same}, **{name: 0.5 * motor(name) for name in halved},
+    )  # fmt: skip
 
 
 @quantities.helper(requires=WITH_ENCODER, default=None)
 def angle_sensor(m: Module) -> Encoder:
     """The encoder, diameters as radii; None without one, or without a motor."""
+    encoder = m.encoder.value
+    same = ("magnet_height", "magnet_density", "air_gap", "board_height", "board_mass")
     return Encoder(
-        magnet_radius=0.5 * m.encoder.value("magnet_diameter"),
-        magnet_height=m.encoder.value("magnet_height"),
-        magnet_density=m.encoder.value("magnet_density"),
-        air_gap=m.encoder.value("air_gap"),
-        board_radius=0.5 * m.encoder.value("board_diameter"),
-        board_height=m.encoder.value("board_height"),
-        board_mass=m.encoder.value("board_mass"),
-        resolution=2.0 ** m.encoder.value("resolution_bits"),
-    )
+        magnet_radius=0.5 * encoder("magnet_diameter"), board_radius=0.5 * encoder("board_diameter"),
+        resolution=2.0 ** encoder("resolution_bits"), **{name: encoder(name) for name in same},
+    )  # fmt: skip
 
 
 for _name, _field, _about in (

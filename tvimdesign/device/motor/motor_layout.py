@@ -30,70 +30,7 @@ quantities = QuantityGroup("Layout", WITH_MOTOR)
 # --- radii: all zero without a motor ---------------------------------------------------------------------------------
 
 
-@quantities.output("mm")
-def motor_disc_radius(m: Module) -> Scalar:
-    """Radius of the motor hub's disc and barrel, on which the rotor is bonded; zero without a motor."""
-    return m.drive_motor.rotor_bore - m.slip_clearance
-
-
-@quantities.output("mm")
-def motor_corner_radius(m: Module) -> Scalar:
-    """Radius of the corners between the hub's disc and its spokes, which are as deep as it; zero without a motor."""
-    return np.fmax(m.corner_radius, m.motor_plate_thickness / m.corner_depth_ratio)
-
-
-@quantities.output("mm")
-def motor_barrel_radius(m: Module) -> Scalar:
-    """Inner radius of that barrel; zero without a motor."""
-    return m.motor_disc_radius - m.motor_hub_wall
-
-
-@quantities.output("mm")
-def motor_journal_radius(m: Module) -> Scalar:
-    """Radius of the motor hub's journal in its bearings; zero without a motor."""
-    return m.drive_motor.bearing_bore - m.seat_clearance
-
-
-@quantities.output("mm")
-def motor_collar_radius(m: Module) -> Scalar:
-    """Radius of what presses on the bearings' inner rings, collar above and retainer below; zero without a motor."""
-    return m.drive_motor.inner_shoulder
-
-
-@quantities.output("mm")
-def motor_seat_radius(m: Module) -> Scalar:
-    """Radius of the seats of the motor's bearings; zero without a motor."""
-    return m.drive_motor.bearing_radius + m.seat_clearance
-
-
-@quantities.output("mm")
-def motor_lip_radius(m: Module) -> Scalar:
-    """Inner radius of the lip between them; zero without a motor."""
-    return m.drive_motor.outer_shoulder
-
-
-@quantities.output("mm")
-def motor_tube_radius(m: Module) -> Scalar:
-    """Outer radius of the tube that holds the bearings; zero without a motor."""
-    return m.motor_seat_radius + m.motor_wall
-
-
-@quantities.output("mm")
-def stator_seat_radius(m: Module) -> Scalar:
-    """Inner radius of the motor housing's wall, to which the stator is bonded; zero without a motor."""
-    return m.drive_motor.stator_radius + m.slip_clearance
-
-
-@quantities.output("mm")
-def motor_outer_radius(m: Module) -> Scalar:
-    """Outer radius of the motor's housing; zero without a motor."""
-    return m.stator_seat_radius + m.motor_wall
-
-
-@quantities.output("mm")
-def motor_base_hole_radius(m: Module) -> Scalar:
-    """Radius of the circle of the base's screws, under the middle of the stator's ring; zero without a motor."""
-    return 0.5 * (m.drive_motor.stator_bore + m.drive_motor.stator_radius)
+quantities.formulas("motor_layout")
 
 
 @quantities.output("mm")
@@ -103,67 +40,7 @@ def motor_sink_radius(m: Module) -> Scalar:
     return head if m.angle_sensor is None else np.fmax(head, m.angle_sensor.magnet_radius + m.slip_clearance)
 
 
-@quantities.output("mm", requires=WITH_ENCODER)
-def encoder_recess_radius(m: Module) -> Scalar:
-    """Radius of the recess for the encoder's board; zero without an encoder."""
-    return m.angle_sensor.board_radius + m.slip_clearance
-
-
 # --- levels: zero without a motor ------------------------------------------------------------------------------------
-
-
-@quantities.output("mm")
-def drive_height(m: Module) -> Scalar:
-    """Height the motor adds below the housing's feet: disc, gap, stator and base; zero without a motor."""
-    return m.motor_plate_thickness + m.axial_clearance + m.drive_motor.stator_length + m.motor_base_thickness
-
-
-@quantities.output("mm")
-def motor_plate_level(m: Module) -> Scalar:
-    """Lower face of the motor hub's disc and spokes, which the housing stands on; zero without a motor."""
-    return -m.floor_thickness - m.foot_height - m.motor_plate_thickness
-
-
-@quantities.output("mm")
-def stator_top_level(m: Module) -> Scalar:
-    """Upper end of stator, motor housing and upper bearing; zero without a motor."""
-    return m.motor_plate_level - m.axial_clearance
-
-
-@quantities.output("mm")
-def stator_bottom_level(m: Module) -> Scalar:
-    """Lower end of the stator, on the base of the motor's housing; zero without a motor."""
-    return m.stator_top_level - m.drive_motor.stator_length
-
-
-@quantities.output("mm")
-def motor_bottom_level(m: Module) -> Scalar:
-    """Lower face of the motor's housing; zero without a motor."""
-    return m.stator_bottom_level - m.motor_base_thickness
-
-
-@quantities.output("mm")
-def encoder_board_level(m: Module) -> Scalar:
-    """Lower face of the encoder's board, if any: the base's; zero without a motor."""
-    return m.motor_bottom_level
-
-
-@quantities.output("mm")
-def motor_rotor_bottom_level(m: Module) -> Scalar:
-    """Lower end of the motor's rotor and of the barrel: rotor and stator have one middle; zero without a motor."""
-    return 0.5 * (m.stator_top_level + m.stator_bottom_level - m.drive_motor.rotor_length)
-
-
-@quantities.output("mm", requires=WITH_ENCODER)
-def magnet_room(m: Module) -> Scalar:
-    """Height of magnet and gap below the head of the retainer's screw; zero without an encoder."""
-    return m.angle_sensor.magnet_height + m.encoder_magnet_spacing
-
-
-@quantities.output("mm")
-def motor_retainer_thickness(m: Module) -> Scalar:
-    """Height of the motor's retainer, in which its screw's head and the magnet are sunk; zero without a motor."""
-    return m.motor_retainer_floor + m.motor_screw_head_height + m.magnet_room
 
 
 @quantities.output("mm")
@@ -171,18 +48,6 @@ def motor_retainer_level(m: Module) -> Scalar:
     """Upper face of the motor's retainer, below the lower inner ring: the magnet keeps its gap to the chip."""
     below = m.running_clearance if m.angle_sensor is None else m.angle_sensor.air_gap + m.angle_sensor.board_height
     return m.encoder_board_level + below + m.motor_retainer_thickness
-
-
-@quantities.output("mm")
-def motor_journal_level(m: Module) -> Scalar:
-    """Lower end of the motor hub's journal, short of the lower inner ring's; zero without a motor."""
-    return m.motor_retainer_level + m.running_clearance
-
-
-@quantities.output("mm")
-def motor_screw_depth(m: Module) -> Scalar:
-    """Depth of the retainer screw's hole in the journal, without a drill's point; zero without a motor."""
-    return m.motor_screw_length - m.motor_retainer_floor - m.running_clearance + m.motor_screw_runout
 
 
 @quantities.output("mm")
@@ -195,12 +60,6 @@ def motor_screw_runout(m: Module) -> Scalar:
 def mount_screw_runout(m: Module) -> Scalar:
     """Depth of the base's holes beyond their thread; zero without a motor."""
     return runout(m.screw_tip_room, m.tap_runout_ratio, m.mount_screw_diameter, m.mount_screw_pilot)
-
-
-@quantities.output("mm")
-def motor_base_hole_depth(m: Module) -> Scalar:
-    """Depth of the base's holes: their points leave it the least wall; zero without a motor."""
-    return m.motor_base_thickness - m.drill_point_ratio * m.mount_screw_pilot - m.minimum_wall
 
 
 clearances = QuantityGroup("Gaps", WITH_MOTOR)

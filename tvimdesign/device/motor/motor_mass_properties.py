@@ -132,34 +132,13 @@ def encoder_board_volume(m: Module) -> Scalar:
     return shapes.ring(0.0, m.angle_sensor.board_radius).area * m.angle_sensor.board_height
 
 
-@quantities.output("kg/m^3")
-def motor_rotor_density(m: Module) -> Scalar:
-    """Mass of the motor's rotor over that volume; zero without a motor."""
-    return m.drive_motor.rotor_mass / m.motor_rotor_volume
-
-
-@quantities.output("kg/m^3")
-def motor_stator_density(m: Module) -> Scalar:
-    """Mass of the motor's stator over that volume; zero without a motor."""
-    return m.drive_motor.stator_mass / m.motor_stator_volume
+quantities.formulas("motor_mass_properties")
 
 
 @quantities.output("kg/m^3")
 def motor_bearing_density(m: Module) -> Scalar:
     """Mass of one of the motor's bearings over its volume; zero without a motor."""
     return density_as_a_ring(m.motor_bearing)
-
-
-@quantities.output("kg/m^3", requires=WITH_ENCODER)
-def encoder_magnet_density(m: Module) -> Scalar:
-    """Density of the encoder's magnet; zero without an encoder."""
-    return m.angle_sensor.magnet_density
-
-
-@quantities.output("kg/m^3", requires=WITH_ENCODER)
-def encoder_board_density(m: Module) -> Scalar:
-    """Mass of the encoder's board over its volume; zero without an encoder."""
-    return m.angle_sensor.board_mass / m.encoder_board_volume
 
 
 @quantities.output("g")

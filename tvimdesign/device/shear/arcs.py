@@ -30,10 +30,7 @@ def pcl_section(m: Module) -> Section:
 weights.field("pcl_area", "pcl_section", "area", "Contact area of all PCL arcs together", "mm^2", headline=True)
 
 
-@weights.output("mm^3")
-def pcl_volume(m: Module) -> Scalar:
-    """Volume of all PCL arcs together, keys included."""
-    return m.pcl_area * m.pcl_thickness + m.key_moments.area
+weights.formulas("arcs")
 
 
 def _rounded_sector(span: Scalar, inner_radius: Scalar, outer_radius: Scalar, corner_radius: Scalar) -> Section:
@@ -80,19 +77,6 @@ def floor_openings(m: Module) -> Section:
     pockets = (pocket.times(m.arc_count), m.pad_depth)
     opened = stacked(pockets, (m.window_section, m.floor_web), (m.lead_hole_section, m.floor_web))
     return opened.plus(m.thermistor_seat_moments)
-
-
-@weights.helper()
-def housing_moments(m: Module) -> Section:
-    """Volume and its polar moment about the axis, of the housing: nothing is added to what all modes have."""
-    return m.bare_housing_moments
-
-
-@weights.output("deg", requires=WITH_LINER)
-def liner_span(m: Module) -> Scalar:
-    """Angle a liner covers: at the arc's inner radius its recess is a slip clearance longer at each end; zero
-    without."""
-    return m.arc_span - 2.0 * m.slip_clearance / m.pcl_inner_radius
 
 
 @weights.helper(requires=WITH_LINER, default=NOTHING)

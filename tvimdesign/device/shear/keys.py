@@ -21,19 +21,10 @@ weights = QuantityGroup("Size and weight")
 rules = QuantityGroup("Gaps")
 
 
-@places.helper()
-def has_keys(m: Module) -> Scalar:
-    """One where the arcs have keys, zero where they have none."""
-    return np.fmin(m.key_count, 1.0)
+places.formulas("keys")
 
 
 places.same("key_circle_radius", "pcl_mean_radius", "Radius of the circle the keys stand on", "mm")
-
-
-@places.output("mm")
-def key_depth(m: Module) -> Scalar:
-    """Depth of the keys in the rotor plate, which keeps the process's least wall above them; zero without keys."""
-    return m.has_keys * (m.rotor_thickness - m.minimum_wall)
 
 
 @weights.helper()

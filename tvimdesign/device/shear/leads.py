@@ -20,16 +20,7 @@ weights = QuantityGroup("Size and weight", WITH_TILES)
 rules = QuantityGroup("Gaps", WITH_TILES)
 
 
-@places.output("mm")
-def lead_bend_radius(m: Module) -> Scalar:
-    """Radius to which the leads of a heater are bent, along their middle."""
-    return (m.lead_bend_ratio + 0.5) * m.lead_diameter
-
-
-@places.output("mm", hidden=True)
-def lead_level(m: Module) -> Scalar:
-    """Level at which the leads leave a heater: half its height."""
-    return -m.spreader_depth - 0.5 * m.heater_thickness
+places.formulas("leads")
 
 
 @places.output("mm", hidden=True)

@@ -35,18 +35,7 @@ places = QuantityGroup("Layout")
 weights = QuantityGroup("Size and weight")
 rules = QuantityGroup("Gaps", WITH_LIP)
 places.choices("melt_lip")
-
-
-@places.output("mm", requires=WITH_LIP)
-def melt_lip_height(m: Module) -> Scalar:
-    """Height of the lips below the rotor plate, which leave a running clearance above the floor; zero without."""
-    return m.pcl_thickness - m.running_clearance
-
-
-@places.output("mm", requires=WITH_LIP)
-def melt_lip_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the inner lip, which is as wide as the plate's rim outside; zero without."""
-    return m.pcl_inner_radius - m.rotor_rim
+places.formulas("melt_lip")
 
 
 @places.helper()

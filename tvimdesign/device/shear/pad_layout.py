@@ -49,22 +49,13 @@ def tile_radius(m: Module) -> Scalar:
     return 0.5 * (m.pcl_inner_radius + m.tile_reach)
 
 
-@tile_places.output("deg")
-def lead_angle(m: Module) -> Scalar:
-    """Angle at each end of an arc that is left to a thermistor's hole."""
-    return (m.lead_hole_diameter + 2.0 * m.tile_clearance) / m.pcl_inner_radius
+tile_places.formulas("pad_layout.tile_places")
 
 
 @tile_places.output("deg")
 def tile_pitch(m: Module) -> Scalar:
     """Angle from one tile of an arc to the next."""
     return (m.arc_span - 2.0 * m.lead_angle) / m.tiles_per_arc
-
-
-@tile_places.output("mm")
-def cold_plate_length(m: Module) -> Scalar:
-    """Length of a tile's colder plate, which lies on the ledges of its window: a porch shorter than the other one."""
-    return m.heater_length - m.heater_porch
 
 
 @tile_weights.output("mm^3")
@@ -88,22 +79,7 @@ rules = QuantityGroup("Gaps")
 holds = QuantityGroup("Impedance")
 
 
-@places.output("mm")
-def pocket_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the pads' pockets."""
-    return m.pcl_inner_radius - m.heater_gap
-
-
-@places.output("mm")
-def pocket_outer_radius(m: Module) -> Scalar:
-    """Outer radius of the pads' pockets."""
-    return m.pcl_outer_radius + m.heater_gap
-
-
-@places.output("deg")
-def pocket_span(m: Module) -> Scalar:
-    """Angle a pad's pocket covers: at the arc's inner radius it is a slip clearance longer at each end."""
-    return m.arc_span + 2.0 * m.slip_clearance / m.pcl_inner_radius
+places.formulas("pad_layout")
 
 
 @rules.gap("the floor between two pads' pockets is thinner than can be made: shorter arcs")
@@ -156,12 +132,6 @@ def thermistor_count(m: Module) -> Scalar:
 def thermistor_seat_diameter(m: Module) -> Scalar:
     """Diameter of the hole for the thermistor at the end of an arc; zero without, and where tiles leave it room."""
     return ROOM * m.thermistor_diameter if m.heater_form == CUT else 0.0
-
-
-@places.output("mm")
-def thermistor_seat_radius(m: Module) -> Scalar:
-    """Distance of that hole from the axis: the middle of the arc's width."""
-    return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius)
 
 
 @weights.helper(default=NOTHING)

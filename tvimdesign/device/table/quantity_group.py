@@ -7,6 +7,8 @@ from functools import cache, partial
 from types import ModuleType
 from typing import Any, Literal, TypeVar
 
+import numpy as np
+
 from tvimdesign.base.record import Record, own_data
 from tvimdesign.base.units import to_si
 from tvimdesign.device.table.module import Module
@@ -164,6 +166,14 @@ class QuantityGroup:
             fields[_LIMITED[why]] = (at_least(entry.get("at_least", 0.0), entry[why]),)
             self._add_formula(Output, name, entry, **self._featured(fields))
 
+    def formulas(self, key: str) -> None:
+        """Add the outputs that `formulas.yaml` lists under a key."""
+        for name, entry in _all_formulas()[key].items():
+            fields: dict[str, Any] = {word: entry[word] for word in _FLAGS if word in entry}
+            if "requires" in entry:
+                fields["requires"] = _features(entry)
+            self._add_formula(Output, name, entry, **self._featured(fields))
+
     def phase_values(self, key: str) -> None:
         """Add what `phase_values.yaml` lists under a key, read off a phase of the working cycle."""
         for name, entry in _all_phase_values()[key].items():
@@ -237,8 +247,8 @@ class QuantityGroup:
     def _add_formula(self, kind: type[Output], name: str, entry: Mapping[str, Any], **fields: Any) -> None:
         """Add an output that a data file lists with its formula."""
         quantity = kind(
-            name=name, unit=entry.get("unit", "mm"), description=entry["about"], group=self.group,
-            function=_formula(entry["is"]), better=directions().get(name), **fields,
+            name=name, unit=entry.get("unit", "1" if fields.get("hidden") else "mm"), description=entry["about"],
+            group=self.group, function=_formula(entry["is"]), better=directions().get(name), **fields,
         )  # fmt: skip
         self.quantities.append(quantity)
 
@@ -321,6 +331,10 @@ _NUMBERS = {"default": "value", "lower": "from", "upper": "to", "period": "perio
 """Keys of `inputs.yaml` that hold numbers, by the field of `Input`."""
 
 
+_FLAGS = ("headline", "hidden", "per_point", "sprung", "default")  # Keys of `formulas.yaml` that are fields of `Output`
+_FUNCTIONS = {"fmax": np.fmax, "fmin": np.fmin, "hypot": np.hypot, "sqrt": np.sqrt}  # What a formula may call
+
+
 _LIMITED = {"reason": "rules", "advice": "advice", "rating": "ratings"}
 """Keys of `margins.yaml` that say what it means to be below the limit, by the field of `Output` that has the limit."""
 
@@ -337,7 +351,8 @@ def _features(entry: Mapping[str, Any]) -> tuple[Feature, ...]:
 
 def _formula(text: str) -> Callable[[Module], Scalar]:
     """Return the function of the module that a formula in names of quantities is."""
-    function: Callable[[Module], Scalar] = eval("lambda m: " + re.sub(r"(?<![.\w])[a-z]\w*", r"m.\g<0>", text))
+    in_module = re.sub(r"(?<![.\w])[a-z]\w*+(?!\()", r"m.\g<0>", text)
+    function: Callable[[Module], Scalar] = eval(f"lambda m: {in_module}", {**_FUNCTIONS})
     return function
 
 
@@ -357,4 +372,5 @@ def directions() -> dict[str, Literal["less", "more"]]:
 _all_inputs = partial(own_data, __file__, "inputs.yaml")  # The inputs by group and name
 _all_choices = partial(own_data, __file__, "choices.yaml")  # The choices and numbers of records by key and name
 _all_margins = partial(own_data, __file__, "margins.yaml")  # The margins by key and name
+_all_formulas = partial(own_data, __file__, "formulas.yaml")  # The plain outputs by key and name
 _all_phase_values = partial(own_data, __file__, "phase_values.yaml")  # What is read off phases by key and name

@@ -14,16 +14,14 @@ from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import axis_label, csv_text, head, number
 from tvimdesign.report.output.page_sections import grid, number_cell
 from tvimdesign.report.output.plot_process import Drawing
-from tvimdesign.solve.nlp.solver_run import OPTIMAL
-from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, MASS, TORQUE, UNANSWERED
 from tvimdesign.study.atlas_studies import Atlas
 from tvimdesign.study.written_studies import study_text
-from tvimdesign.sweep.atlas import FAMILIES, OUTPUTS, AtlasCell, cells_of, compute, study_of
+from tvimdesign.sweep.atlas import FAMILIES, OUTPUTS, AtlasCell, cells_of, compute, front_of, study_of
 
 STUDIES = "studies"
+_OPEN = "unanswered"  # Status of a cell that no search decided
 _UNITS = dict(zip(OUTPUTS, ("g", "N*m", "N*m/rad", "s", "J", "mm"), strict=True))
-_ALIKE = 0.01  # Share of a cycle by which a design of the front must be faster than a denser one
-_BRUSHED = (CYCLE, MASS, TORQUE, "cycle_energy", "envelope_diameter")
+_BRUSHED = ("cycle_time", "module_mass", "holding_torque", "cycle_energy", "envelope_diameter")
 
 
 def rows_of(cells: Sequence[AtlasCell]) -> list[dict[str, Any]]:
@@ -33,7 +31,7 @@ def rows_of(cells: Sequence[AtlasCell]) -> list[dict[str, Any]]:
     """
     rows = []
     for cell in cells:
-        there = cell.status == OPTIMAL
+        there = cell.has_design
         row: dict[str, Any] = {
             "kind": cell.kind, "torque [N*m]": cell.torque, "cycle [s]": cell.cycle, "status": cell.status,
             "hardware": cell.hardware, "density [N*m/kg]": cell.density if there else None,
@@ -52,20 +50,20 @@ def figure_data(plan: Atlas, cells: Sequence[AtlasCell]) -> dict[str, Any]:
     """Return a series of each kind: the designs of its front, with energy and interval."""
     series = []
     for kind, entry in plan.kinds.items():
-        front = front_of([cell for cell in cells if cell.kind == kind and cell.status == OPTIMAL])
+        front = front_of(cell for cell in cells if cell.kind == kind)
         series.append(
             {
                 "label": entry["title"],
-                "cycle": [cell.values[CYCLE] for cell in front],
+                "cycle": [cell.cycle_time for cell in front],
                 "density": [cell.density for cell in front],
                 "energy": [cell.values["cycle_energy"] for cell in front],
-                "bands": [_band(cell) for cell in front],
+                "bands": [cell.band for cell in front],
             }
         )
-    modules = sorted((cell for cell in cells if cell.status == OPTIMAL), key=lambda cell: cell.density)
+    modules = sorted((cell for cell in cells if cell.has_design), key=lambda cell: cell.density)
     densest = {(cell.torque, cell.cycle): cell.density for cell in modules}
     density = [[densest.get((torque, cycle)) for cycle in plan.cycles] for torque in plan.torques]
-    doubtful = {(cell.torque, cell.cycle) for cell in cells if cell.status == UNANSWERED} - densest.keys()
+    doubtful = {(cell.torque, cell.cycle) for cell in cells if cell.status == _OPEN} - densest.keys()
     places = [[plan.cycles.index(cycle), plan.torques.index(torque)] for torque, cycle in sorted(doubtful)]
     return {
         "series": series,
@@ -74,26 +72,9 @@ def figure_data(plan: Atlas, cells: Sequence[AtlasCell]) -> dict[str, Any]:
     }
 
 
-def front_of(cells: Sequence[AtlasCell]) -> list[AtlasCell]:
-    """Return the designs that no other holds more for its mass in less time than, the fastest first."""
-    front: list[AtlasCell] = []
-    for cell in sorted(cells, key=lambda cell: -cell.density):
-        if not front or cell.values[CYCLE] < front[-1].values[CYCLE] * (1.0 - _ALIKE):
-            front.append(cell)
-    return front[::-1]
-
-
-def _band(cell: AtlasCell) -> list[float] | None:
-    """Return the ends of density and cycle time; None where the interval was not drawn."""
-    if {TORQUE, CYCLE} - set(cell.intervals):
-        return None
-    share = cell.density / cell.values[TORQUE]
-    return [share * end for end in cell.intervals[TORQUE]] + list(cell.intervals[CYCLE])
-
-
-def ending_limits(cells: Sequence[AtlasCell], status: str) -> str:
-    """Return the limits that most often come first in cells of a status, with their shares."""
-    first = Counter(cell.limits[0] for cell in cells if cell.status == status and cell.limits)
+def ending_limits(cells: Sequence[AtlasCell]) -> str:
+    """Return the limits that most often come first in empty cells, with their shares."""
+    first = Counter(cell.limits[0] for cell in cells if cell.status == "empty" and cell.limits)
     total = sum(first.values())
     return ", ".join(f"{text} ({100.0 * times / total:.0f} %)" for text, times in first.most_common(3))
 
@@ -101,7 +82,7 @@ def ending_limits(cells: Sequence[AtlasCell], status: str) -> str:
 def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, float], command: Command) -> Page:
     """Return the page of an atlas."""
     statuses = Counter(cell.status for cell in cells)
-    answered = sum(count for status, count in statuses.items() if status != UNANSWERED)
+    answered = sum(count for status, count in statuses.items() if status != _OPEN)
     facts = [
         ("Torque, cycle", f"{_ends(plan.torques)} N·m, {_ends(plan.cycles)} s"),
         ("Soft", f"at most {plan.softness:g} N·m/rad a newton metre of torque held"),
@@ -110,10 +91,10 @@ def atlas_page(plan: Atlas, cells: Sequence[AtlasCell], counts: Mapping[str, flo
     ]
     for kind, entry in plan.kinds.items():
         facts.append((kind, _in_short(entry["title"], [cell for cell in cells if cell.kind == kind])))
-    modules = [cell for cell in cells if cell.status == OPTIMAL]
+    modules = [cell for cell in cells if cell.has_design]
     sections = [
         Section("map", "Map", [_brushed(cells, command.out), _grid(modules)]),
-        Section("empty", "Empty cells", [_empty([cell for cell in cells if cell.status != OPTIMAL])]),
+        Section("empty", "Empty cells", [_empty([cell for cell in cells if not cell.has_design])]),
     ]
     files = {"atlas.csv": "every cell", "atlas.png": "the figure", "atlas.svg": "for print", "atlas.pdf": "for print"}
     verdict = f"{number(100.0 * answered / len(cells))} % of the cells answered"
@@ -125,21 +106,21 @@ def _ends(values: Sequence[float]) -> str:
 
 
 def _in_short(title: str, cells: Sequence[AtlasCell]) -> str:
-    modules = [cell for cell in cells if cell.status == OPTIMAL]
+    modules = [cell for cell in cells if cell.has_design]
     if not modules:
         return f"{title}: no design"
-    fastest, densest = min(modules, key=lambda c: c.values[CYCLE]), max(modules, key=lambda c: c.density)
+    fastest, densest = min(modules, key=lambda c: c.cycle_time), max(modules, key=lambda c: c.density)
     sentences = [
-        f"{title}: {len(modules)} modules", f"fastest {number(fastest.values[CYCLE])} s at {fastest.torque:g} N·m",
+        f"{title}: {len(modules)} modules", f"fastest {number(fastest.cycle_time)} s at {fastest.torque:g} N·m",
         f"most torque a mass {number(densest.density)} N·m/kg at {densest.torque:g} N·m",
     ]  # fmt: skip
-    ends = ending_limits(cells, EMPTY)
+    ends = ending_limits(cells)
     return "; ".join([*sentences, *([f"ended by {ends}"] if ends else [])])
 
 
 def module_points(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """Return the rows with a module as points, numbered as in the table of modules."""
-    modules = [row for row in rows if row["status"] == OPTIMAL]
+    modules = [row for row in rows if row["density [N*m/kg]"] is not None]
     kinds = list(dict.fromkeys(row["kind"] for row in rows))
     columns = {"torque": "torque [N*m]", "density": "density [N*m/kg]"}
     columns |= {name: f"{name} [{_UNITS[name]}]" for name in _BRUSHED}
@@ -152,7 +133,7 @@ def module_points(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         for number, row in enumerate(modules, start=1)
     ]  # fmt: skip
     words = {"title": "Modules", "one": "module", "many": "modules"}
-    return {"of": [CYCLE, "density"], "names": list(columns), "labels": labels, "points": points, "words": words}
+    return {"of": ["cycle_time", "density"], "names": list(columns), "labels": labels, "points": points, "words": words}
 
 
 def _brushed(cells: Sequence[AtlasCell], folder: Path) -> Drawn:
@@ -201,7 +182,7 @@ def make_atlas(
         rows = rows_of(cells)
         folder.write("atlas.csv", csv_text(rows, list(dict.fromkeys(name for row in rows for name in row))))
         for cell in cells:
-            if cell.status == OPTIMAL:
+            if cell.has_design:
                 text = study_text(study_of(atlas, cell), f"Cell {cell.name} of an atlas", folder.path)
                 folder.write(f"{STUDIES}/{cell.name}.yaml", text)
         summary = {

@@ -54,8 +54,8 @@ def compare_studies(
 
         if all(finished):
             which = "optimised" if all(case.study.vary for case in cases.values()) else "drawn"
-            for (label, case), path in zip(cases.items(), paths, strict=True):
-                answers_by_label[label] = finished_run(design_file(path), case.study.table, which)
+            for label, path in zip(cases, paths, strict=True):
+                answers_by_label[label] = finished_run(design_file(path), which)
         else:
             studies_by_label = {label: case.path for label, case in cases.items()}
             start_plotter = command.start_plotter if plots else lambda: None

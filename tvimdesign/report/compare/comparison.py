@@ -339,4 +339,5 @@ def warnings_of(outcome: Outcome) -> Iterator[str]:
     for label, answer in outcome.answers.items():
         for warning in answer.get(outcome.which, {"warnings": []})["warnings"]:
             value = math.inf if warning["value"] is None else warning["value"]
-            yield f"{label}: {advice_text(warning['output'], value, warning['because'], outcome.tables[label])}"
+            unit = outcome.unit(warning["output"])
+            yield f"{label}: {advice_text(warning['output'], value, warning['because'], unit)}"

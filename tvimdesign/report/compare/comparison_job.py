@@ -19,7 +19,6 @@ from typing import Any
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent, line_writer
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
-from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import all_finite
 from tvimdesign.report.output.tables import results, soft_in_words
 from tvimdesign.report.output.terminal import Progress
@@ -28,10 +27,7 @@ from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.report.run.reasons import above_rating, complaint, starts_reported
 from tvimdesign.report.run.uncertainty_data import below_yield, uncertainty_of
 from tvimdesign.solve import anchored_search
-from tvimdesign.solve.nlp.solver_run import Run
-from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
-from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
+from tvimdesign.solve.pareto.front import FrontSearch
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.design import Design, read_design
@@ -39,7 +35,7 @@ from tvimdesign.study.resolve import record_checks
 from tvimdesign.study.tree import StudyTree, tree_of_file
 
 
-def compared_design(design: Design, results: Mapping[str, Any], table: Table) -> dict[str, Any]:
+def compared_design(design: Design, results: Mapping[str, Any]) -> dict[str, Any]:
     """Return a design with its violated limits, warnings and search; `results` as results.json."""
     search = results.get("starts") or {"count": 0, "converged": 0, "optima": []}
     return {
@@ -49,17 +45,14 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
             {"output": check["output"], "value": check["si"]["value"], "because": check["origin"]}
             for check in results.get("warnings", ())
         ],
-        "verdict": results.get("verdict", ""),
-        "above_rating": list(design.above_rating),
-        "accepting": list(design.accepting),
-        "soft": soft_in_words(design, table),
-        "starts": search["count"],
-        "converged": search["converged"],
+        "verdict": results.get("verdict", ""), "soft": soft_in_words(design),
+        "above_rating": list(design.above_rating), "accepting": list(design.accepting),
+        "starts": search["count"], "converged": search["converged"],
         "optima": [{"objective": entry["objective"], "variables": entry["at"]} for entry in search["optima"]],
-    }
+    }  # fmt: skip
 
 
-def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:
+def finished_run(source: Path, which: str) -> dict[str, Any]:
     """Return what a comparison of `which` designs needs of a finished run, by its design.json. Raises InputError."""
     design = read_design(source)
     path = source.parent / "results.json"
@@ -69,7 +62,7 @@ def finished_run(source: Path, table: Table, which: str) -> dict[str, Any]:
         results = {}
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from error
-    return {**empty_answer(), which: compared_design(design, results, table)}
+    return {**empty_answer(), which: compared_design(design, results)}
 
 
 def empty_answer() -> dict[str, Any]:
@@ -77,9 +70,9 @@ def empty_answer() -> dict[str, Any]:
     return {"fronts": [], "seconds": {}, "troubles": []}
 
 
-def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
+def front_outputs(study: Study) -> tuple[str, str, str]:
     """Return the time, mass and size that fronts are drawn over: those the study minimises, else the usual ones."""
-    times = [name for name in study.minimize if table.unit(name) == "s"]
+    times = [name for name in study.minimize if study.table.unit(name) == "s"]
     sizes = [name for name in study.minimize if name in {"envelope_diameter", "envelope_volume", "envelope_height"}]
     return (times or ["response_time"])[0], "module_mass", (sizes or ["envelope_diameter"])[0]
 
@@ -96,7 +89,7 @@ class ComparisonJob:
         self._others = others
         self.table = self.study.table
         self.points, self.say = points, say
-        self._built: list[tuple[Optimizer, list[Run]]] = []
+        self._fronts = FrontSearch(self.study)
         self.answer = empty_answer()
 
     @cached_property
@@ -121,7 +114,7 @@ class ComparisonJob:
                 self.say("verdict")
                 warnings = warnings_of(answered, record_checks(self.study))
                 self.answer[which]["verdict"] = verdict(answered, uncertainty_of(answered, self.study), warnings).text
-        if answered and self._built and self.points:
+        if answered and answered.solution and self.points:
             with self._step("fronts"):
                 self._trade(answered)
         return self.answer
@@ -142,13 +135,12 @@ class ComparisonJob:
     def _optimised(self) -> StudyResult:
         starts = [anchored_search.at_its_start(study) for study in (self.study, *self.others)]
         common = anchored_search.common(starts)
-        objectives = front_outputs(self.study, self.table) if self.points else ()
-        built = self._built
-        answered = answer(self.study, self.say, common, lambda *search: built.append(search), objectives)
+        objectives = front_outputs(self.study) if self.points else ()
+        answered = answer(self.study, self.say, common, self._fronts.keep, objectives)
         if not answered.has_design:
-            raise InfeasibleError(complaint(answered, self.table))
+            raise InfeasibleError(complaint(answered))
         self.answer["optimised"] = self._compared(answered)
-        if refused := above_rating(answered, self.table):
+        if refused := above_rating(answered):
             self.answer["troubles"].append(
                 {"step": "ratings", "error": refused, "exit_code": AboveRatingError.exit_code}
             )
@@ -157,34 +149,24 @@ class ComparisonJob:
         return answered
 
     def _compared(self, answered: StudyResult) -> dict[str, Any]:
-        reported = results(answered, self.table) | {"starts": starts_reported(answered)}
-        return compared_design(answered.design, reported, self.table)
+        reported = results(answered) | {"starts": starts_reported(answered)}
+        return compared_design(answered.design, reported)
 
     def _trade(self, best: StudyResult) -> None:
         assert best.solution is not None
-        trade = Tradeoff(self.study, best.solution, *self._built[0], self.say)
-        first, *others = front_outputs(self.study, self.table)
+        optimum = self._fronts.begin(best.solution, self.say)
+        first, *others = front_outputs(self.study)
         for second in others:
-            front = completed(trace_front(trade, (first, second), self.points), trade)
-            self.answer["fronts"].append(self._plain(front, trade.optimum))
-
-    @staticmethod
-    def _plain(front: Front, optimum: Point) -> dict[str, Any]:
-        """Return a front in SI, with the study's own optimum where it is on it; null where something never happens."""
-        first, second = front.outputs
-        points = sorted(undominated([*front.points, optimum], front.outputs), key=lambda point: point.values[first])
-        plain: dict[str, Any] = all_finite({
-            "first": first,
-            "second": second,
-            "notes": front.notes,
-            "dominated": front.dominated,
-            "failures": [asdict(failure) for failure in front.failures],
-            "points": [
-                {"where": point.where, "values": point.values, "current_profiles": point.current_profiles}
-                for point in points
-            ],
-        })  # fmt: skip
-        return plain
+            front = self._fronts.seek((first, second), self.points)
+            entry = all_finite({
+                "first": first, "second": second, "notes": front.notes, "dominated": front.dominated,
+                "failures": [asdict(failure) for failure in front.failures],
+                "points": [
+                    {"where": point.where, "values": point.values, "current_profiles": point.current_profiles}
+                    for point in front.joined(optimum)
+                ],
+            })  # fmt: skip
+            self.answer["fronts"].append(entry)
 
 
 def main(arguments: list[str]) -> int:

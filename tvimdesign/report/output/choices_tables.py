@@ -103,23 +103,17 @@ def choosing_data(
     best, between = _own(choosing, own), choosing.between
     costs = shares(best, between) if best and between else {}
     return {
-        "combinations": choosing.combinations,
-        "solved": choosing.solved,
-        "pruned_by_bound": choosing.pruned,
-        "without_design": choosing.without_design,
-        "not_searched": choosing.not_searched,
-        "proven": choosing.proven,
-        "better_by_proof": choosing.improved,
-        "better_than_bound": choosing.inside,
-        "objective_of_mixture": choosing.bound,
-        "ruled_out_by_arithmetic": choosing.work.screened,
+        "combinations": choosing.combinations, "solved": choosing.solved, "pruned_by_bound": choosing.pruned,
+        "without_design": choosing.without_design, "not_searched": choosing.not_searched, "proven": choosing.proven,
+        "better_by_proof": choosing.improved, "better_than_bound": choosing.inside,
+        "objective_of_mixture": choosing.bound, "ruled_out_by_arithmetic": choosing.work.screened,
         "runs": choosing.work.warm + choosing.work.cold,
         "iterations": choosing.work.warm_iterations + choosing.work.cold_iterations,
         "best": [_plain(combination, table) for combination in choosing.best],
         "between_sizes": _plain(between, table) if between else None,
         "cost_of_standard_sizes": costs
         | ({"objective": best.objective / between.objective - 1.0} if best and between else {}),
-    }
+    }  # fmt: skip
 
 
 def _plain(standard: Standard, table: Table) -> dict[str, Any]:

@@ -39,12 +39,19 @@ def in_labels(text: str) -> str:
     return _NAME.sub(lambda match: label(match[0]), text)
 
 
+_NAMED = 2  # Limits that are named, of those that allow no more
 _NO_MARGIN = re.compile(r" >= 0( [^\s,]+)?(?=$|,)")
 
 
 def at_its_minimum(text: str) -> str:
     """Return a limit in labels: `wall of the posts at its minimum` for a margin that must not be negative."""
     return in_labels(_NO_MARGIN.sub(" at its minimum", text))
+
+
+def held_by(limits: Sequence[str]) -> str:
+    """Return the first limits and ranges that allow no more, in words."""
+    texts = [text.removesuffix(" >= 0 mm") for text in limits[:_NAMED]]
+    return in_labels(" and ".join(texts)) or "the study's limits"
 
 
 def axis_label(name: str, unit: str) -> str:

@@ -33,9 +33,9 @@ class Provenance(NamedTuple):
     high: float | None = None
 
 
-def provenance(name: str, design: Design, table: Table, find_record: FindRecord) -> Provenance:
+def provenance(name: str, design: Design, find_record: FindRecord) -> Provenance:
     """Return where the number of a full name comes from, in a design."""
-    row, base = table.quantity(name), name.partition("@")[0]
+    row, base = design.table.quantity(name), name.partition("@")[0]
     if not isinstance(row, Input):
         return Provenance("computed", "computed", *design.intervals.get(name, (None, None)))
     if base in design.study["vary"]:
@@ -44,19 +44,19 @@ def provenance(name: str, design: Design, table: Table, find_record: FindRecord)
         return Provenance("study", "set by the study")
     if row.per_point:
         return Provenance("study", "an operating point of the study")
-    if place := _place_in_record(row, design, table):
-        return _of_record(*place, row, design, table, find_record)
+    if place := _place_in_record(row, design):
+        return _of_record(*place, row, design, find_record)
     status, _, source = row.source.partition(": ")
-    return Provenance(status, source, *(_of_factor(row, design, table, find_record) or (row.low, row.high)))
+    return Provenance(status, source, *(_of_factor(row, design, find_record) or (row.low, row.high)))
 
 
-def _choice(name: str, table: Table) -> Choice:
-    chosen = table.quantity(name)
+def _choice(name: str, design: Design) -> Choice:
+    chosen = design.table.quantity(name)
     assert isinstance(chosen, Choice)
     return chosen
 
 
-def _place_in_record(row: Input, design: Design, table: Table) -> tuple[str, str] | None:
+def _place_in_record(row: Input, design: Design) -> tuple[str, str] | None:
     """Return (choice, field) that an input comes from, if from a record: one bought whole before any other.
 
     An input with a default of its own comes from no choice that stands for no record.
@@ -64,27 +64,25 @@ def _place_in_record(row: Input, design: Design, table: Table) -> tuple[str, str
     place = row.record
     if row.stock_record is not None:
         bought = row.stock_record[0]
-        is_whole = design.choices.get(bought, "none") not in _choice(bought, table).options
+        is_whole = design.choices.get(bought, "none") not in _choice(bought, design).options
         place = row.stock_record if is_whole else place
-    if place and row.falls_back and design.choices[place[0]] in _choice(place[0], table).options:
+    if place and row.falls_back and design.choices[place[0]] in _choice(place[0], design).options:
         return None
     return place
 
 
-def _of_factor(row: Input, design: Design, table: Table, find_record: FindRecord) -> Ends | None:
+def _of_factor(row: Input, design: Design, find_record: FindRecord) -> Ends | None:
     """Return the range of a factor of a chosen record's value, as the record has it."""
     if row.range_of is None:
         return None
     choice, field = row.range_of
-    entry = find_record(_choice(choice, table).category or "", design.choices[choice]).entries.get(field)
+    entry = find_record(_choice(choice, design).category or "", design.choices[choice]).entries.get(field)
     return entry.share_of_range if entry else None
 
 
-def _of_record(
-    choice: str, field: str, row: Input, design: Design, table: Table, find_record: FindRecord
-) -> Provenance:
+def _of_record(choice: str, field: str, row: Input, design: Design, find_record: FindRecord) -> Provenance:
     """Return the source in the chosen record; that of the row if there is no such record any more."""
-    chosen, word = _choice(choice, table), design.choices[choice]
+    chosen, word = _choice(choice, design), design.choices[choice]
     if word in chosen.options:
         return Provenance("chosen", f"{choice} is {word}; such a module needs none")
     try:
@@ -105,26 +103,26 @@ _PARTS = {2.0: "half of", 3.0: "a third of"}
 Value = Callable[[str], float]  # A number (SI) by its full name
 
 
-def soft_in_words(design: Design, table: Table) -> str:
+def soft_in_words(design: Design) -> str:
     """Return what the joint is from `softening_time` on: `dynamic stiffness <= 12.7 N·m/rad at 1 Hz, twice ...`."""
-    return _soft(design.value, design.choices["impedance_targets"], table)
+    return _soft(design.value, design.choices["impedance_targets"])
 
 
 def soft_of_module(resolved: ResolvedModule) -> str:
     """Return what soft means in a module that is no design."""
-    return _soft(resolved.quantity, str(resolved.values["impedance_targets"]), resolved.table)
+    return _soft(resolved.quantity, str(resolved.values["impedance_targets"]))
 
 
-def stiff_in_words(design: Design, table: Table) -> str:
+def stiff_in_words(design: Design) -> str:
     """Return what the joint is from `stiffening_time` on: `dynamic stiffness >= 231 N·m/rad at 1 Hz, half of ...`."""
     band = design.value("stiffening_band")
     of = "stiff_impedance" if design.choices["impedance_targets"] == "stated" else "that at the cold point"
-    return f"{_at('>=', 'stiff', 'cold', design.value, table)}, {_PARTS.get(band, f'1/{band:.3g} of')} {of}"
+    return f"{_at('>=', 'stiff', 'cold', design.value)}, {_PARTS.get(band, f'1/{band:.3g} of')} {of}"
 
 
-def notes(design: Design, table: Table) -> dict[str, str]:
+def notes(design: Design) -> dict[str, str]:
     """Return what must be known to read an output right, by its name: of times, what the joint is then."""
-    soft, stiff = f"soft: {soft_in_words(design, table)}", f"stiff: {stiff_in_words(design, table)}"
+    soft, stiff = f"soft: {soft_in_words(design)}", f"stiff: {stiff_in_words(design)}"
     points = {"softening_time": soft, "stiffening_time": stiff, "equilibrium_stiffening_time": stiff}
     if design.choices["response_criterion"] == "softening":
         points["response_time"] = soft
@@ -133,20 +131,20 @@ def notes(design: Design, table: Table) -> dict[str, str]:
     return points
 
 
-def meaning(name: str, design: Design, table: Table) -> str:
+def meaning(name: str, design: Design) -> str:
     """Return what an output is, with what must be known to read it."""
-    note = notes(design, table).get(name)
-    return table.quantity(name).description + (f" ({note})" if note else "")
+    note = notes(design).get(name)
+    return design.table.quantity(name).description + (f" ({note})" if note else "")
 
 
-def _soft(value: Value, targets: str, table: Table) -> str:
+def _soft(value: Value, targets: str) -> str:
     band = value("softening_band")
     of = "soft_impedance" if targets == "stated" else "that at the hot point"
-    return f"{_at('<=', 'soft', 'hot', value, table)}, {_MULTIPLES.get(band, f'{band:.3g} times')} {of}"
+    return f"{_at('<=', 'soft', 'hot', value)}, {_MULTIPLES.get(band, f'{band:.3g} times')} {of}"
 
 
-def _at(sense: str, which: str, point: str, value: Value, table: Table) -> str:
-    threshold = format_quantity(value(f"{which}_threshold"), table.unit(f"{which}_threshold"), digits=3)
+def _at(sense: str, which: str, point: str, value: Value) -> str:
+    threshold = format_quantity(value(f"{which}_threshold"), "N*m/rad", digits=3)
     return f"dynamic stiffness {sense} {threshold} at {format_quantity(value(f'frequency@{point}'), 'Hz')}"
 
 
@@ -154,12 +152,12 @@ NOTHING = 5e-4  # Margin, as a share, below which a limit is active
 _ROUND = 1e-5
 
 
-def value_text(answer: StudyResult, name: str, table: Table, *, rounded: bool = False) -> str:
+def value_text(answer: StudyResult, name: str, *, rounded: bool = False) -> str:
     """Return an output's value for people: one number, or `low to high` if history leaves it open.
 
     With `rounded`, what a solver leaves of zero is zero, in any unit that a limit is written in.
     """
-    unit = table.unit(name)
+    unit = answer.design.table.unit(name)
     if name not in answer.intervals:
         value = from_si(answer.design.value(name), unit)
         return numbers.number(_rounded(value) if rounded else value)
@@ -230,23 +228,23 @@ def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | 
 results_schema = partial(own_data, __file__, "results.schema.yaml")  # The JSON schema of results.json and `run --json`
 
 
-def results(answer: StudyResult, table: Table) -> dict[str, Any]:
+def results(answer: StudyResult) -> dict[str, Any]:
     """Return everything a script wants to know: every number in its unit and in SI, every check, how it was found."""
-    design, reached = answer.design, answer.solution.yield_reached if answer.solution else None
-    find_record, ends = catalog_of(design).record, answer.intervals
+    design, solution, ends = answer.design, answer.solution, answer.intervals
+    table, find_record = design.table, catalog_of(design).record
+    reached, constant, choosing = (
+        (solution.yield_reached, solution.constant, solution.choosing) if solution else (None, None, None)
+    )
 
     def entries(values: Mapping[str, float]) -> dict[str, dict[str, Any]]:
-        return {name: _entry(name, value, answer, table, find_record) for name, value in values.items()}
+        return {name: _entry(name, value, answer, find_record) for name, value in values.items()}
 
     def rows(checks: Iterable[ConstraintCheck]) -> list[dict[str, Any]]:
         return [check_row(check, table, ends.get(check.output)) for check in checks]
 
-    constant = answer.solution.constant if answer.solution else None
     return {
         **numbers.head(),
-        "name": design.name,
-        "mode": design.mode,
-        "status": design.status,
+        **{name: getattr(design, name) for name in ("name", "mode", "status")},
         "feasible": answer.feasible,
         "choices": design.choices,
         "values": entries(design.values),
@@ -265,9 +263,7 @@ def results(answer: StudyResult, table: Table) -> dict[str, Any]:
             {"objective": constant.objective, "values": entries(constant.values)} if constant else None
         ),
         "yield_reached": asdict(reached) | {"nominal": number_entries(reached.nominal, table)} if reached else None,
-        "choosing": choosing_data(
-            answer.solution.choosing if answer.solution else None, table, choices_with_margins(answer)
-        ),
+        "choosing": choosing_data(choosing, table, choices_with_margins(answer)),
         "solution": numbers.all_finite(design.solution) or None,
     }
 
@@ -280,42 +276,34 @@ def number_entries(values: Mapping[str, float], table: Table) -> dict[str, dict[
 def duty_entry(duty: DutyResult, table: Table) -> dict[str, Any]:
     """Return the result of a duty, with units."""
     return {
-        "values": number_entries(duty.values, table),
-        "exceeded": list(duty.exceeded),
+        "values": number_entries(duty.values, table), "exceeded": list(duty.exceeded),
         "settling_time": numbers.number_entry(duty.settling, "min"),
         "energy_a_day": numbers.number_entry(duty.energy_a_day, "kJ"),
-        "most_switches_per_hour": duty.most,
-        "limited_by": duty.limited_by,
-    }
+        "most_switches_per_hour": duty.most, "limited_by": duty.limited_by,
+    }  # fmt: skip
 
 
 def control_entry(control: ControlResult) -> dict[str, Any]:
     """Return the controller and what it does, with units."""
     return {
-        "controller": asdict(control.controller),
-        "share": SHARE,
+        "controller": asdict(control.controller), "share": SHARE,
         "overshoot": numbers.number_entry(control.overshoot, "K"),
         "hottest_pads": numbers.number_entry(control.hottest_pads, "degC"),
-        "settling": control.settling,
-        "settling_of_nominal": control.settling_of_nominal,
-        "controlled": asdict(control.controlled),
-        "stays_soft": asdict(control.stays_soft),
-    }
+        "settling": control.settling, "settling_of_nominal": control.settling_of_nominal,
+        "controlled": asdict(control.controlled), "stays_soft": asdict(control.stays_soft),
+    }  # fmt: skip
 
 
-def _entry(name: str, value: float, answer: StudyResult, table: Table, find_record: FindRecord) -> dict[str, Any]:
+def _entry(name: str, value: float, answer: StudyResult, find_record: FindRecord) -> dict[str, Any]:
     design = answer.design
-    row, known = table.quantity(name), provenance(name, design, table, find_record)
+    row, known = design.table.quantity(name), provenance(name, design, find_record)
     return {
-        **numbers.number_entry(value, table.unit(name), (known.low, known.high)),
+        **numbers.number_entry(value, design.table.unit(name), (known.low, known.high)),
         "kind": "input" if isinstance(row, Input) else "output",
-        "status": known.status,
-        "source": known.source,
-        "group": row.group,
-        "description": row.description,
-        "note": notes(design, table).get(name, ""),
+        "status": known.status, "source": known.source, "group": row.group, "description": row.description,
+        "note": notes(design).get(name, ""),
         "idealized": ", ".join(each.text for each in answer.idealizations if name in each.as_drawn),
-    }
+    }  # fmt: skip
 
 
 def results_csv(entries: Mapping[str, dict[str, Any]], intervals: Mapping[str, dict[str, Any]] | None = None) -> str:

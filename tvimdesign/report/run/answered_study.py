@@ -8,7 +8,6 @@ from typing import Any
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.device import Table
 from tvimdesign.engine.integrator import is_compiled
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.tables import control_entry, duty_entry, results
@@ -83,13 +82,12 @@ def answer_study(
     study = read_tree(tree)
     if prove:  # every combination of listed choices is solved
         study = study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
-    table = study.table
     study = drawn(study) if drawn_only else study
     deadline = deadline or Deadline(study.solver.time_limit)
-    front, search = FrontOfRun(study, table, folder), search or partial(optimize, deadline=deadline, eases=True)
-    result = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search, designed=designed)
+    front, search = FrontOfRun(study, folder), search or partial(optimize, deadline=deadline, eases=True)
+    result = answer(study, progress, keep=front.search.keep, objectives=front.outputs, search=search, designed=designed)
     early(result)
-    answered = AnsweredStudy(tree, study, result, front, _reported(result, table), deadline=deadline)
+    answered = AnsweredStudy(tree, study, result, front, _reported(result), deadline=deadline)
     answered.reported["doubts"] = record_checks(study)
     front.seek(result, progress, answered.reported, answered.failures)
     note_left_out(answered)
@@ -97,13 +95,13 @@ def answer_study(
     return answered
 
 
-def _reported(result: StudyResult, table: Table) -> dict[str, Any]:
-    reported = results(result, table)
+def _reported(result: StudyResult) -> dict[str, Any]:
+    reported = results(result)
     if result.duty:
-        reported["duty"] = duty_entry(result.duty, table)
+        reported["duty"] = duty_entry(result.duty, result.design.table)
     if result.control:
         reported["control"] = control_entry(result.control)
-    reported["why"] = why(result, table)
+    reported["why"] = why(result)
     if result.solution:
         reported["starts"] = starts_reported(result)
         reported["conflict_set"] = conflicts_reported(result.solution.conflict_set)
@@ -129,4 +127,4 @@ def drawings(answered: AnsweredStudy) -> list[Drawing]:
 
     if not answered.result.has_design:
         return []
-    return run_page.drawings(answered.result, answered.study.table) + answered.front.drawings()
+    return run_page.drawings(answered.result) + answered.front.drawings()

@@ -43,7 +43,7 @@ def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = No
     facts: list[list[str]] = []
     room = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - 1
     if answer.has_design:
-        extra = [*front_fact(answered.front.front, answered.study.table), *chosen_fact(answer)]
+        extra = [*front_fact(answer, answered.front.front), *chosen_fact(answer)]
         facts = [_fact_lines(fact, width) for fact in (*main_facts(answer, answered.uncertainty), *extra)]
         while extra and sum(map(len, facts)) > room - len(first) - _LEAST:
             extra, facts = extra[:-1], facts[:-1]

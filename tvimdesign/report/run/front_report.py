@@ -2,13 +2,10 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
 
-from tvimdesign import __version__
-from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import AboveRatingError, TvimError
 from tvimdesign.base.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.base.units import format_quantity, from_si, pretty
@@ -16,11 +13,8 @@ from tvimdesign.device import Table
 from tvimdesign.report.output.numbers import axis_label, csv_text, finite, head
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import Progress
-from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, OPTIMAL, Run
-from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.verify_optimum import exceeded, sorted_by_acceptance
-from tvimdesign.solve.pareto.front import Front, completed, trace_front
-from tvimdesign.solve.pareto.tradeoff import OUT_OF_TIME, FolderMemory, Point, Tradeoff
+from tvimdesign.solve.pareto.front import Front, FrontSearch, design_at
+from tvimdesign.solve.pareto.tradeoff import Point
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design, design_json
@@ -29,22 +23,18 @@ from tvimdesign.study.design import Design, design_json
 class FrontOfRun:
     """The front a study asks for, where it does, on its way through a run."""
 
-    def __init__(self, study: Study, table: Table, folder: ResultsFolder | None = None) -> None:
+    def __init__(self, study: Study, folder: ResultsFolder | None = None) -> None:
         """Prepare; in a `folder` each point is stored on the way, so that another run can continue there.
 
         Raises InputError where the folder holds the beginning of another study's front.
         """
-        self.study, self.table = study, table
+        self.study, self.table = study, study.table
         self.outputs: tuple[str, ...] = study.front.of if study.front else ()
         self.front: Front | None = None
         self.entry: dict[str, Any] | None = None  # The front as plain data
         self.optimum: Point | None = None
-        self._memory = FolderMemory(folder, study) if study.front and folder else None
-        self._built: list[tuple[Optimizer, list[Run]]] = []
-
-    def keep(self, built: Optimizer, runs: list[Run]) -> None:
-        """Take what found the study's optimum: the front is sought with it."""
-        self._built.append((built, runs))
+        self.designs: list[Design] = []  # One for each point
+        self.search = FrontSearch(study, folder if study.front else None)
 
     def seek(
         self, result: StudyResult, progress: Progress, reported: dict[str, Any], troubles: list[TvimError]
@@ -55,36 +45,25 @@ class FrontOfRun:
         """
         if self.study.front is None or result.solution is None or not result.has_design:
             return
-        trade = Tradeoff(self.study, result.solution, *self._built[0], progress, self._memory)
-        sought = trace_front(trade, self.outputs, self.study.front.points)
-        progress("simulating the working cycle of each point of the front")
-        front = self.front = completed(sought, trade)
-        self.optimum = trade.optimum
-        late = trade.optimizer.deadline.late
-        yields: list[float] = []
-        if self.study.robust:
-            drawing = partial(kept_at, trade.optimizer, front, late)
-            yields = late.attempt("the yield of each point of the front", drawing) or []
-        accept = self.study.model_dump(include={"accept"})
-        above = [of_ratings(point, accept, self.table)["above_rating"] for point in front.points]
-        self.entry = reported["front"] = plain(front, shown_names(self.study, front), self.table, yields, above)
+        self.optimum = self.search.begin(result.solution, progress)
+        front = self.front = self.search.seek(self.outputs, self.study.front.points, drawn=bool(self.study.robust))
+        self.designs = [design_at(result.design, point, i) for i, point in enumerate(front.points, start=1)]
+        above = [design.above_rating for design in self.designs]
+        self.entry = reported["front"] = plain(front, shown_names(self.study, front), self.table, above)
         if any(above):
             troubles.append(AboveRatingError(ratings_note(above)))
-        failures = [failure for failure in front.failures if failure.reason != OUT_OF_TIME]
-        if len(failures) < len(front.failures):
-            late.leave_out(f"{len(front.failures) - len(failures)} points of the front")
-        if failures:
-            where = "; ".join(f"{failure.where}: {failure.reason}" for failure in failures)
+        if front.lost:
+            where = "; ".join(f"{failure.where}: {failure.reason}" for failure in front.lost)
             troubles.append(TvimError(f"the front has {len(front.points)} points, but no design was found at {where}"))
 
-    def write(self, folder: ResultsFolder, result: StudyResult) -> None:
+    def write(self, folder: ResultsFolder) -> None:
         """Write all of it but its figure."""
         if self.front is None or self.entry is None:
             return
         folder.write("front.csv", front_csv(self.entry))
         folder.write_json("front.json", {**head(), **self.entry})
-        for number, point in enumerate(self.front.points, start=1):
-            folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, result, self.table)))
+        for number, design in enumerate(self.designs, start=1):
+            folder.write(f"front/{number:02d}.design.json", design_json(design))
         folder.remove(PROGRESS)
 
     def drawings(self) -> list[Drawing]:
@@ -94,41 +73,10 @@ class FrontOfRun:
         return [Drawing("front", "design_figures.front", figure_data(self.front, self.optimum, self.table))]
 
 
-def of_ratings(point: Point, study: Mapping[str, Any], table: Table) -> dict[str, Any]:
-    """Return a point's status, with the ratings it is beyond, not accepted by the study and accepted."""
-    names = [limit.output for limit in exceeded(point.values, table)]
-    above, accepting = sorted_by_acceptance(names, study.get("accept", ()))
-    return {"status": ABOVE_RATING if above else OPTIMAL, "above_rating": above, "accepting": accepting}
-
-
-def design_of(point: Point, number: int, result: StudyResult, table: Table) -> Design:
-    """Return a point as a design of its own, as `tvimdesign cad` takes it."""
-    return result.design.model_copy(
-        update={
-            "tvimdesign": __version__,
-            "name": f"{result.design.name}, point {number} of its front",
-            **of_ratings(point, result.design.study, table),
-            "values": point.values,
-            "current_profiles": point.current_profiles,
-            "intervals": {},
-            "solution": {"front": point.where},
-        }
-    )
-
-
 def shown_names(study: Study, front: Front) -> list[str]:
     """Return the columns of a front's table: traded and other minimised outputs, and the variables that are numbers."""
     numbers = [name for name in study.vary if name in front.points[0].values] if front.points else []
     return list(dict.fromkeys([*front.outputs, *study.minimize, *numbers]))
-
-
-def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> list[float]:
-    """Return for each point the share of random modules that satisfy all limits. Raises TimeOverError."""
-    inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
-    from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
-
-    yields = yields_of(optimizer)
-    return [yields.at(values, deadline=deadline).together.share for values in inputs]
 
 
 def ratings_note(above: Sequence[tuple[str, ...]]) -> str:
@@ -163,13 +111,7 @@ def status(front: Front, place: int) -> str:
     return front.points[place].where if front.points[place].where.startswith("least ") else "between"
 
 
-def plain(
-    front: Front,
-    names: Sequence[str],
-    table: Table,
-    yield_shares: Sequence[float] = (),
-    above: Sequence[tuple[str, ...]] = (),
-) -> dict[str, Any]:
+def plain(front: Front, names: Sequence[str], table: Table, above: Sequence[tuple[str, ...]] = ()) -> dict[str, Any]:
     """Return the front as plain data, in units and in SI; null is never."""
 
     def entry(number: int, point: Point) -> dict[str, Any]:
@@ -178,8 +120,8 @@ def plain(
             "values": {name: finite(from_si(point.values[name], table.unit(name))) for name in names},
             "si": {name: finite(point.values[name]) for name in names},
         }  # fmt: skip
-        if yield_shares:
-            point_entry["yield_share"] = yield_shares[number - 1]
+        if front.yields:
+            point_entry["yield_share"] = front.yields[number - 1]
         if above and above[number - 1]:
             point_entry["above_rating"] = list(above[number - 1])
         return point_entry
@@ -190,12 +132,10 @@ def plain(
         "points": [entry(number, point) for number, point in enumerate(front.points, start=1)],
         "knee": None if front.knee is None else front.knee + 1,
         "in_words": in_words(front, table),
-        "spread": front.spread,
-        "sought": front.sought,
-        "dominated": front.dominated,
+        "spread": front.spread, "sought": front.sought, "dominated": front.dominated,
         "failures": [{"where": failure.where, "reason": failure.reason} for failure in front.failures],
         "notes": list(front.notes),
-    }
+    }  # fmt: skip
 
 
 def in_words(front: Front, table: Table) -> list[str]:

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from tvimdesign.base.units import pretty
-from tvimdesign.device import Table
 from tvimdesign.report.output.choices_tables import choice_text
 from tvimdesign.report.output.numbers import at_its_minimum, csv_text, finite, label, listed
 from tvimdesign.report.output.tables import NOTHING, margin_of, margin_text
@@ -54,11 +53,11 @@ def _sentence(held: ActiveConstraint) -> str:
 _WHY_NOT = "it belongs to the supply, or stands in the same way as another limit"
 
 
-def why_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
+def why_rows(answer: StudyResult) -> list[dict[str, Any]]:
     """Return every limit and end of a range at the optimum: how it stands, its margin, and what a step of it costs."""
     rows: list[dict[str, Any]] = []
     for limit in sorted(answer.solution.held if answer.solution and answer.has_design else (), key=_place):
-        margin, unit = margin_of(limit, table)
+        margin, unit = margin_of(limit, answer.design.table)
         rows.append({
             "limit": limit.text, "stands": _stands(limit), "origin": limit.origin,
             "margin": finite(margin), "margin_unit": pretty(unit),
@@ -79,24 +78,24 @@ def _place(limit: ActiveConstraint) -> tuple[int, float]:
     return {"active": (0, -limit.shadow_price), "touches": (1, 0.0), "slack": (2, limit.margin)}[_stands(limit)]
 
 
-def why(answer: StudyResult, table: Table) -> dict[str, Any]:
+def why(answer: StudyResult) -> dict[str, Any]:
     """Return everything this page says, as plain data; costs are percent of each output for a step of the limit."""
-    return {"limits": why_rows(answer, table), "sentences": sentences(answer)}
+    return {"limits": why_rows(answer), "sentences": sentences(answer)}
 
 
-def why_csv(answer: StudyResult, table: Table) -> str:
+def why_csv(answer: StudyResult) -> str:
     """Return the rows as CSV, one column for each minimised output."""
     outputs = list(answer.design.study["minimize"])
     places = ("limit", "stands", "origin", "margin", "margin_unit", "step")
     rows = [
         {**row, "shadow_price [%]": row["shadow_price"],
          **{f"sensitivity of {name} [%]": row["sensitivity"].get(name) for name in outputs}}
-        for row in why_rows(answer, table)
+        for row in why_rows(answer)
     ]  # fmt: skip
     return csv_text(rows, [*places, "shadow_price [%]", *(f"sensitivity of {name} [%]" for name in outputs)], 6)
 
 
-def complaint(answer: StudyResult, table: Table) -> str:
+def complaint(answer: StudyResult) -> str:
     """Report that no design was found: the conflict, the least violations, and what to do."""
     solution = answer.solution
     if solution is not None and answer.design.status == FLAT_GOAL:
@@ -118,7 +117,8 @@ def complaint(answer: StudyResult, table: Table) -> str:
             lines.append("The values are nominal: the margins for a yield ask for more.")
     between = solution.choosing.between if solution and solution.choosing and not solution.choosing.best else None
     if between:
-        values = ", ".join(f"{name} {choice_text(name, value, table)}" for name, value in between.choices.items())
+        choices = between.choices.items()
+        values = ", ".join(f"{name} {choice_text(name, value, answer.design.table)}" for name, value in choices)
         lines.append(f"With {values} there is a design: list values nearer to these, or give a number a range.")
     broken = _worst_of_each(check for check in answer.checks if not check.met)
     if broken:
@@ -127,7 +127,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
             if conflict_set
             else "Where the solver ended, these are violated:"
         )
-        lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-')}" for check in broken]
+        lines += [f"  {check.text}, by {margin_text(check, answer.design.table).lstrip('-')}" for check in broken]
     if not conflict_set:
         held = [h.text for h in solution.held if abs(h.residual) <= NOTHING] if solution else []
         lines += ["These stand in the way there, at their limits:", *(f"  {text}" for text in held)] if held else []
@@ -155,9 +155,9 @@ def _worst_of_each(checks: Iterable[ConstraintCheck]) -> list[ConstraintCheck]:
     return list({check.part_of or check.text: check for check in reversed(ordered)}.values())[::-1]
 
 
-def above_rating(answer: StudyResult, table: Table) -> str:
+def above_rating(answer: StudyResult) -> str:
     """Report an optimum beyond ratings that the study does not accept; empty if it is beyond none."""
-    names = answer.design.above_rating
+    table, names = answer.design.table, answer.design.above_rating
     if answer.solution is None or not names:
         return ""
     checks = [check for check in answer.warnings if check.output in names]

@@ -17,7 +17,6 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import from_si
 from tvimdesign.cad.cad_report import PREVIEW
-from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
 from tvimdesign.report.output.command import record_files
 from tvimdesign.report.output.numbers import axis_label, curves_csv, head, name_in_words
@@ -49,17 +48,17 @@ PLACES = {
 _PROFILES = 5
 
 
-def drawings(answer: StudyResult, table: Table) -> list[Drawing]:
+def drawings(answer: StudyResult) -> list[Drawing]:
     """Return every figure of a run, with its data."""
-    return [Drawing(name, f"design_figures.{name}", data) for name, data in plot_data(answer, table).items()]
+    return [Drawing(name, f"design_figures.{name}", data) for name, data in plot_data(answer).items()]
 
 
-def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
+def plot_data(answer: StudyResult) -> dict[str, dict[str, Any]]:
     """Return data of every figure by the figure's name."""
     design = answer.design
 
     def shown(name: str) -> float:
-        return from_si(design.value(name), table.unit(name))
+        return from_si(design.value(name), answer.design.table.unit(name))
 
     phases = {phase: _history(curves) for phase, curves in answer.histories.items()}
     labels = {name: axis_label(name, unit) for name, unit in PHASE_UNITS.items()}
@@ -73,7 +72,7 @@ def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
             "soft": shown("soft_threshold"),
             "stiff": shown("stiff_threshold"),
             "target": shown("target_temperature"),
-            "depths": depths(answer, table),
+            "depths": depths(answer),
         },
         "stiffness_and_damping": {
             **phases,
@@ -106,9 +105,9 @@ def through_the_layer(curves: Curves) -> list[str]:
     return ["near_face", *(name for name in curves if name.startswith("cell_")), "far_face"]
 
 
-def depths(answer: StudyResult, table: Table) -> list[float]:
+def depths(answer: StudyResult) -> list[float]:
     """Return the depths [mm] from the Peltier side at which a profile has its temperatures."""
-    depth = from_si(table.evaluate(answer.design.values, ["pcl_depth"])["pcl_depth"], "mm")
+    depth = from_si(answer.design.table.evaluate(answer.design.values, ["pcl_depth"])["pcl_depth"], "mm")
     cells = sum(name.startswith("cell_") for name in answer.histories["softening"])
     return [0.0, *((i + 0.5) / cells * depth for i in range(cells)), depth]
 
@@ -139,7 +138,7 @@ def _spring_torque(design: Design) -> dict[str, list[float]]:
     angle = np.linspace(-design.value("stroke"), design.value("stroke"), LOOP_SAMPLES)
     known = {**design.choices, **design.values, "stroke": np.abs(angle)}
     del known[_SPRINGS]
-    torque = np.sign(angle) * table_for(design.mode).evaluate(known, [_SPRINGS])[_SPRINGS]
+    torque = np.sign(angle) * design.table.evaluate(known, [_SPRINGS])[_SPRINGS]
     return {"spring_angle": angle.tolist(), "springs": torque.tolist()}
 
 
@@ -226,21 +225,21 @@ def _of_a_design(cad: Path, answered: AnsweredStudy, of_the_module: Section) -> 
     ]  # fmt: skip
     return [
         parts.solids_section(cad, path.name if path else "STUDY"),
-        cycle_section(answered.result, answered.study.table),
-        *([drawn_front(answered.study.table, front)] if front else []),
+        cycle_section(answered.result),
+        *([drawn_front(answered.result, front)] if front else []),
         sections.reasons_section(answered),
         of_the_module,
         *map(folded, to_look_up),
     ]
 
 
-def cycle_section(answer: StudyResult, table: Table) -> Section:
+def cycle_section(answer: StudyResult) -> Section:
     """Return the working cycle: softening, then stiffening, on one axis of time."""
     says = (
         "The working cycle, simulated: temperatures, current and power, impedance, and the temperatures through the "
         "layer at the cursor. Softening first, then stiffening."
     )
-    beside = plot_data(answer, table)["cycle"]
+    beside = plot_data(answer)["cycle"]
     data = {
         "phases": [_phase(name, answer.histories[name]) for name in _PHASES if name in answer.histories],
         "labels": beside["labels"],
@@ -262,13 +261,13 @@ def _rounded(values: Any) -> list[float]:
     return [float(f"{value:.5g}") for value in values]
 
 
-def drawn_front(table: Table, front: dict[str, Any]) -> Section:
+def drawn_front(answer: StudyResult, front: dict[str, Any]) -> Section:
     """Return the front: its points as curves to brush, and as a table with the file of each design."""
     says = (
         "The front: each point, and each line, is a whole design. Drag along an axis of the lower figure, or set "
         "its ends below, to keep only the designs within."
     )
-    drawn = Drawn("front", "front.js", says, points_shown(front, table), libraries=["echarts"])
+    drawn = Drawn("front", "front.js", says, points_shown(front, answer.design.table), libraries=["echarts"])
     return sections.front_section(front, list(front["units_of_values"]), drawn)
 
 
@@ -282,12 +281,12 @@ def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     write_study(folder, answered.tree, answered.study)
     write_results(folder, answered)
     if result.solution and result.has_design:
-        folder.write("why.csv", why_csv(result, table))
+        folder.write("why.csv", why_csv(result))
     for phase, history in result.histories.items():
         folder.write(f"{phase}.csv", curves_csv(history, PHASE_UNITS, "degC"))
     units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in result.sweep}
     folder.write("impedance.csv", curves_csv(result.sweep, units, "1"))
-    answered.front.write(folder, result)
+    answered.front.write(folder)
     return write_design(result.design, folder.path / "design.json")
 
 

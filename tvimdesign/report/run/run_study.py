@@ -175,10 +175,10 @@ def _ending(answered: AnsweredStudy) -> errors.TvimError | None:
     from tvimdesign.report.run.reasons import above_rating, complaint
     from tvimdesign.report.run.uncertainty_data import below_yield
 
-    result, table = answered.result, answered.study.table
+    result = answered.result
     if not result.has_design:
-        return errors.InfeasibleError(complaint(result, table))
-    if refused := above_rating(result, table):
+        return errors.InfeasibleError(complaint(result))
+    if refused := above_rating(result):
         return errors.AboveRatingError(refused)
     return errors.BelowYieldError(missed) if (missed := below_yield(result)) else None
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Cycle
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.solve.nlp.spread import Yield, yield_of
 
 SAME_OPTIMUM = 1e-4  # Two solutions are the same optimum if their objectives differ by no more than this share
 
@@ -192,6 +193,11 @@ class YieldReached:
     nominal: dict[str, float]  # Headline values and minimised outputs (SI) of the optimum without margins
     tightened: TightenedTolerance | None = None  # Change that would reach it; None where it is reached
     eased: EasedRequirement | None = None  # As `tightened`; None where none of those tried is enough
+
+    @property
+    def share(self) -> Yield:
+        """The share that keeps all, with its interval."""
+        return yield_of(self.together, self.modules)
 
     @property
     def reached(self) -> bool:

@@ -152,19 +152,13 @@ def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], se
     else:
         status = f"not converged: {meaning(run.start.status).words}"
     return Solution(
-        status=status,
-        feasible=feasible,
-        model=optimizer.model,
-        inputs=run.inputs,
-        current_profiles=run.current_profiles,
-        cycle=cycle,
-        values=values,
+        status=status, feasible=feasible, model=optimizer.model, inputs=run.inputs,
+        current_profiles=run.current_profiles, cycle=cycle, values=values,
         objective=sum(w * values[n] / optimizer.reference[n] for n, w in optimizer.study.minimize.items()),
         starts=starts,
         held=(*limits, *_active_bounds(optimizer, run, response), *_active_currents(optimizer, run, response)),
-        reference={name: optimizer.reference[name] for name in optimizer.study.minimize},
-        seconds=seconds,
-    )
+        reference={name: optimizer.reference[name] for name in optimizer.study.minimize}, seconds=seconds,
+    )  # fmt: skip
 
 
 def _goal_flat(optimizer: Optimizer, run: Run, starts: tuple[Start, ...]) -> bool:
@@ -184,17 +178,11 @@ def _active(
 ) -> ActiveConstraint:  # fmt: skip
     """Return a limit as it holds the design; `price` is what a scale of it costs, in the objective's unit."""
     return ActiveConstraint(
-        name=f"{limit.name}{where}",
-        output=limit.output,
-        text=f"{constraints.in_words(limit, optimizer.table)}{held}",
-        residual=float(residual),
-        scale=limit.scale,
-        absolute=limit.absolute,
-        shadow_price=float(price) / (run.start.objective or 1.0),
-        step=limit.step,
-        origin=limit.origin,
-        sensitivity=sensitivity,
-    )
+        name=f"{limit.name}{where}", output=limit.output,
+        text=f"{constraints.in_words(limit, optimizer.table)}{held}", residual=float(residual),
+        scale=limit.scale, absolute=limit.absolute, shadow_price=float(price) / (run.start.objective or 1.0),
+        step=limit.step, origin=limit.origin, sensitivity=sensitivity,
+    )  # fmt: skip
 
 
 def _savings(response: Response | None, places: list[Place], per_scale: float = 1.0) -> dict[str, float]:

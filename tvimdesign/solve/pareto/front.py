@@ -8,14 +8,22 @@ built problem (`tradeoff`), and each point begins from what its neighbours left 
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
+from tvimdesign.base.deadline import NEVER, Deadline
+from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.solve.nlp.problem_parts import Array, Objective
-from tvimdesign.solve.nlp.solver_run import Trace
+from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, OPTIMAL, Progress, Run, Trace
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.verify_optimum import exceeded, sorted_by_acceptance
 from tvimdesign.solve.pareto import front_shape as shape
 from tvimdesign.solve.pareto.front_shape import Frame
-from tvimdesign.solve.pareto.tradeoff import ONE_POINT, Failure, Point, Tradeoff
+from tvimdesign.solve.pareto.tradeoff import ONE_POINT, OUT_OF_TIME, Failure, FolderMemory, Point, Tradeoff
+from tvimdesign.study import Study
+from tvimdesign.study.design import Design
 
 SIDE_WEIGHT = 1e-2
 """Weight of the other outputs against the one that is made small, both as ratios to the optimum: a front ends where a
@@ -38,6 +46,17 @@ class Front:
     failures: tuple[Failure, ...] = ()
     notes: tuple[str, ...] = ()
     sought: int = 0  # Count of designs that were sought, ends included
+    yields: tuple[float, ...] = ()  # Share of random modules that satisfy all limits, at each point; empty if not drawn
+
+    @property
+    def lost(self) -> list[Failure]:
+        """The failures that the time limit is not the reason of."""
+        return [failure for failure in self.failures if failure.reason != OUT_OF_TIME]
+
+    def joined(self, point: Point) -> list[Point]:
+        """Return its points and another one, those that no other beats, by the first output."""
+        points = undominated([*self.points, point], self.outputs)
+        return sorted(points, key=lambda point: point.values[self.outputs[0]])
 
     @property
     def shares(self) -> Array:
@@ -83,6 +102,63 @@ def completed(front: Front, trade: Tradeoff) -> Front:
         points=tuple(answer for answer in answers if isinstance(answer, Point)),
         failures=(*front.failures, *failures),
     )
+
+
+class FrontSearch:
+    """The fronts of a study: it keeps what finds the optimum, and seeks them with that."""
+
+    trade: Tradeoff
+
+    def __init__(self, study: Study, folder: ResultsFolder | None = None) -> None:
+        """Prepare; in a `folder` each point is stored on the way, so that another run can continue there.
+
+        Raises InputError where the folder holds the beginning of another study's front.
+        """
+        self._study, self._memory = study, FolderMemory(folder, study) if folder else None
+        self._built: list[tuple[Optimizer, list[Run]]] = []
+
+    def keep(self, built: Optimizer, runs: list[Run]) -> None:
+        """Take what found the study's optimum."""
+        self._built.append((built, runs))
+
+    def begin(self, optimum: Solution, progress: Progress) -> Point:
+        """Return the optimum as a point."""
+        self.trade = Tradeoff(self._study, optimum, *self._built[0], progress, self._memory)
+        return self.trade.optimum
+
+    def seek(self, outputs: Sequence[str], count: int, *, drawn: bool = False) -> Front:
+        """Return a front whose points have every output, and their yields where modules are to be `drawn`."""
+        trade, late = self.trade, self.trade.optimizer.deadline.late
+        front = trace_front(trade, outputs, count)
+        trade.progress("simulating the working cycle of each point of the front")
+        front = completed(front, trade)
+        if drawn:
+            drawing = partial(kept_at, trade.optimizer, front, late)
+            front = replace(front, yields=tuple(late.attempt("the yield of each point of the front", drawing) or ()))
+        if left := len(front.failures) - len(front.lost):
+            late.leave_out(f"{left} points of the front")
+        return front
+
+
+def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> list[float]:
+    """Return for each point the share of random modules that satisfy all limits. Raises TimeOverError."""
+    from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
+
+    inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
+    yields = yields_of(optimizer)
+    return [yields.at(values, deadline=deadline).together.share for values in inputs]
+
+
+def design_at(design: Design, point: Point, number: int) -> Design:
+    """Return a point of a design's front as a design of its own, with its number."""
+    names = [limit.output for limit in exceeded(point.values, design.table)]
+    above, accepting = sorted_by_acceptance(names, design.study.get("accept", ()))
+    update = {
+        "name": f"{design.name}, point {number} of its front", "status": ABOVE_RATING if above else OPTIMAL,
+        "above_rating": above, "accepting": accepting, "values": point.values,
+        "current_profiles": point.current_profiles, "intervals": {}, "solution": {"front": point.where},
+    }  # fmt: skip
+    return design.model_copy(update=update)
 
 
 class _Tracer:

@@ -1,8 +1,9 @@
 """Uncertainty of one design by many modules: part-to-part variation and, separately, unmeasured inputs."""
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.child_process import own_processors
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.device import Table
-from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
+from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread
@@ -27,6 +28,8 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import (
     judges_modules,
     unmeasured_inputs,
 )
+from tvimdesign.study import Study, standard_tolerances
+from tvimdesign.study.design import Design
 
 Array = NDArray[np.float64]
 Rows = Callable[..., Array]
@@ -38,6 +41,14 @@ _DOUBTFUL = 0.75  # Share of these modules that satisfy a limit below which it i
 def share_in_doubt(plausible: float | None) -> float:
     """Return the share of modules below which a limit is in doubt: the usual one, or a larger one that is asked."""
     return max(_DOUBTFUL, plausible or 0.0)
+
+
+class Need(NamedTuple):
+    """Values of an unmeasured input with which alone a limit is met: those on one side of an end."""
+
+    input: str
+    sense: str
+    end: float  # SI
 
 
 @dataclass(frozen=True)
@@ -60,6 +71,7 @@ class DesignUncertainty:
     before: dict[str, tuple[float, float]] = field(default_factory=dict)
     """By asked output: between what it would lie had nothing been measured that a user's records have; empty where
     they have nothing."""
+    need: Need | None = None  # What the main unmeasured input must be for the limit most in doubt
 
 
 class UncertaintyModel:
@@ -204,6 +216,48 @@ class UncertaintyModel:
         in_doubt = {limit.output for limit in hanging if limit.name in doubtful}
         requested.update({name: by_name[name] for name in in_doubt})
         return requested, spread.share_kept(np.all(satisfied, axis=0)), dict(broken), moved
+
+
+def uncertainty_at(
+    design: Design, study: Study, shown: Sequence[str], modules: int, deadline: Deadline = NEVER
+) -> DesignUncertainty:
+    """Return the uncertainty of a design that answers a study, by its tolerances, else the standard ones.
+
+    Intervals are those of what the study requires and minimises, and of what is `shown`. `modules` is a power of two;
+    without modules there is no yield. Raises TimeOverError at the deadline.
+    """
+
+    def tolerant(resolved: ResolvedModule) -> ResolvedModule:
+        tolerances = resolved.study.tolerances if study.tolerances else standard_tolerances(study.table)
+        return replace(resolved, study=resolved.study.model_copy(update={"tolerances": tolerances}))
+
+    required = [name for limit in study.require for name in (limit.output, *study.limited_with(limit.output))]
+    requested = list(dict.fromkeys([*required, *study.minimize, *shown]))
+    model = UncertaintyModel(tolerant(resolve_study(study)), requested, list(study.vary))
+    resolved = tolerant(resolve_design(design))
+    if not model.fits(resolved):  # another record was chosen
+        model = UncertaintyModel(resolved, requested)
+    uncertainty = model.at(resolved, modules, DRAWS, deadline=deadline)
+    return replace(uncertainty, need=_need(model.limits, uncertainty))
+
+
+def _need(limits: Sequence[Constraint], uncertainty: DesignUncertainty) -> Need | None:
+    """Return the values of the main unmeasured input that the limit most in doubt is met with, alone, if there are any.
+
+    Linear between the ends of its range and the value as drawn.
+    """
+    limit = next((limit for limit in limits if limit.name in list(uncertainty.held)[:1]), None)
+    interval = uncertainty.intervals.get(limit.output) if limit else None
+    swing = next((swing for swing in interval.swings if swing.moved.name == interval.first), None) if interval else None
+    if limit is None or interval is None or swing is None:
+        return None
+    at = np.array([swing.moved.low, swing.moved.value, swing.moved.high])
+    residuals = limit.residual(np.array([swing.at_low, interval.nominal, swing.at_high])) - ALGEBRAIC_TOLERANCE
+    rising = residuals[0] < residuals[2]
+    if not np.all(np.isfinite(residuals)) or np.min(residuals) > 0.0 or np.max(residuals) <= 0.0:
+        return None
+    order = slice(None) if rising else slice(None, None, -1)
+    return Need(swing.moved.name, "<=" if rising else ">=", float(np.interp(0.0, residuals[order], at[order])))
 
 
 def _satisfied(limits: Sequence[Constraint], outputs: Sequence[str], values: Array) -> NDArray[np.bool_]:

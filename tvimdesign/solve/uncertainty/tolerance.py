@@ -10,13 +10,16 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
+from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words
 from tvimdesign.solve.uncertainty.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.uncertain_inputs import FREE_ANGLE, contributors_of, judges_modules
+from tvimdesign.study import Study
 
 Array = NDArray[np.float64]
 Progress = Callable[[str], None]
 
+GOOD = 0.9973  # Yield from which a limit is no concern: three standard deviations to either side
+_NO_SPREAD = 1e-9  # Standard deviation over the value below which an output does not spread
 SOBOL_SAMPLES = 1 << 10  # Points of the Sobol indices; each costs as many modules as there are contributors, and two
 
 
@@ -25,6 +28,7 @@ class LimitYield:
     """A limit and the yield of modules that satisfy it."""
 
     limit: Constraint
+    text: str  # The limit in words
     share: spread.Yield
     capability: float  # C_pk of this side
 
@@ -48,6 +52,30 @@ class Spread:
     together: spread.Yield  # Yield of all limits together
     left_out: tuple[str, ...]
     """Outputs nothing can be said about: they never happen as drawn, or hang on a current that follows a profile."""
+    study: Study
+
+    def spreads(self, i: int) -> bool:
+        """Return whether an output spreads at all."""
+        moves = self.deviation[i] > _NO_SPREAD * abs(self.nominal[i])
+        return bool(moves) or bool(self.drawn.never[i] > 0.0)
+
+    def share(self, limit_yield: LimitYield, contributor: int) -> float:
+        """Return the share of the variance behind a limit that a contributor carries."""
+        return float(self.shares[self.outputs.index(limit_yield.limit.output), contributor])
+
+    @property
+    def of_concern(self) -> list[LimitYield]:
+        """Limits that too many modules violate, the worst first."""
+        concern = [limit_yield for limit_yield in self.limit_yields if limit_yield.share.share < GOOD]
+        return sorted(concern, key=lambda limit_yield: limit_yield.share.share)
+
+    @property
+    def violated_at_worst(self) -> int:
+        """Count of the limits that are violated in the worst case."""
+        worst = {"<=": self.worst.high, ">=": self.worst.low}
+        limits = [each.limit for each in self.limit_yields]
+        ends = (worst[limit.sense][self.outputs.index(limit.output)] for limit in limits)
+        return sum(not float(limit.residual(end)) <= 1e-9 for limit, end in zip(limits, ends, strict=True))
 
 
 @dataclass(frozen=True)
@@ -174,7 +202,7 @@ class Tolerancing:
             if draw.outputs not in models:
                 models[draw.outputs] = BatchModel(self.resolved.functions, self.names, list(draw.outputs))
             columns = columns_of(self.resolved, self.names, models[draw.outputs], draw, self.workers)
-            return spread.drawn_values(columns, draw.contributors, samples, seed)
+            return spread.drawn_values(columns, draw.contributors, spread.power_of_two(samples), seed)
 
         return drawn
 
@@ -187,14 +215,14 @@ class Tolerancing:
         deviation, shares = spread.shares(contributors, derivatives)
         self.progress("checking the extremes of the tolerances")
         worst = spread.worst_case(function, contributors, derivatives)
-        self.progress(f"simulating {samples} modules with random deviations")
+        self.progress(f"simulating {spread.power_of_two(samples)} modules with random deviations")
         results = spread.moments_of(self._draws(samples, seed)(self.whole))
         self.progress("finding which tolerance matters most")
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
         satisfied, together = self._satisfied(results)
         return Spread(
             tuple(contributors), self.outputs, self.requested, self.nominal, derivatives, deviation, shares, worst,
-            results, first, total, satisfied, together, self.left_out,
+            results, first, total, satisfied, together, self.left_out, self.resolved.study,
         )  # fmt: skip
 
     def _satisfied(self, drawn: spread.MonteCarlo) -> tuple[tuple[LimitYield, ...], spread.Yield]:
@@ -206,7 +234,7 @@ class Tolerancing:
                 keeps = np.asarray(limit.keeps(drawn.values[i]))
             every &= keeps
             able = spread.capability(float(drawn.mean[i]), float(drawn.deviation[i]), limit.limit, limit.sense)
-            shares.append(LimitYield(limit, spread.share_kept(keeps), able))
+            shares.append(LimitYield(limit, in_words(limit, self.resolved.table), spread.share_kept(keeps), able))
         return tuple(shares), spread.share_kept(every)
 
     def preload(self, samples: int, seed: int) -> Preload | None:

@@ -18,12 +18,7 @@ from tvimdesign.physics.spring import pin_slip
 quantities = QuantityGroup("Lost motion")
 
 quantities.inputs()
-
-
-@quantities.output("N", sprung=True)
-def pin_force(m: Module) -> Scalar:
-    """Force of a spring's leg on its pin at rest."""
-    return m.held_spring_rate * m.preload_angle / m.leg_arm
+quantities.formulas("lost_motion")
 
 
 @quantities.helper(sprung=True)
@@ -62,18 +57,6 @@ def pin_wear(m: Module) -> Scalar:
     return contacts.crossed_groove_depth(volume, 0.5 * m.wire_diameter, 0.5 * m.pin_diameter)
 
 
-@quantities.output("rad", sprung=True)
-def friction_play(m: Module) -> Scalar:
-    """Angle from rest within which the springs do not overcome the friction on their pins, the PCL molten."""
-    return m.pin_friction_torque / m.spring_stiffness
-
-
-@quantities.output("N*m")
-def friction_torque(m: Module) -> Scalar:
-    """Torque by which pins, bore or bearings and wave spring resist a force at the link's end, at full stroke."""
-    return m.pin_friction_torque + m.bearing_friction_torque + m.preload_friction_torque
-
-
 @quantities.output("1", advice=(at_most(0.5, "friction holds the soft joint far off its rest"),), sprung=True)
 def friction_share(m: Module) -> Scalar:
     """Friction torque over the springs' torque at full stroke; beyond one the springs do not bring the joint back."""
@@ -105,12 +88,6 @@ def core_support(m: Module) -> Support:
     # Loose in the seat outside, on the journal inside, and between the rings.
     play = 2.0 * m.seat_clearance + 0.5 * m.bearing_internal_clearance
     return Support(play, length - m.bearing_width, m.hub_top_level - 0.5 * m.bearing_width, np.inf)
-
-
-@quantities.output("rad")
-def core_lean(m: Module) -> Scalar:
-    """Angle by which the core can lean to one side in its bore or bearings."""
-    return np.fmin(2.0 * m.core_support.clearance / m.core_support.spread, m.core_support.tilt)
 
 
 @quantities.output("rad")

@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import table_for
 from tvimdesign.device.core.task import ARM
 from tvimdesign.report.output.numbers import (
     at_its_minimum,
@@ -21,7 +20,7 @@ from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.run.blocks.verdict import meet_every_limit, most_in_doubt
 from tvimdesign.report.run.blocks.warnings import frozen_turn
 from tvimdesign.report.run.reasons import NO_ROOM, active
-from tvimdesign.report.run.uncertainty_data import lever, yield_of
+from tvimdesign.report.run.uncertainty_data import lever
 from tvimdesign.solve.duty import LATE, OVERSHOOT, SHARE
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import share_in_doubt
@@ -50,7 +49,7 @@ class Values:
     """Values of a design for people, in three digits, with their ranges."""
 
     def __init__(self, answer: StudyResult, uncertainty: Mapping[str, Any]) -> None:
-        self.values, self.table = answer.design.values, table_for(answer.design.mode)
+        self.values, self.table = answer.design.values, answer.design.table
         self.intervals = uncertainty.get("intervals", {})
 
     def __call__(self, name: str) -> str:
@@ -245,11 +244,11 @@ def _manufacturing(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[
         return [Fact("Manufacturing", [f"no limit depends on {tolerances_in_words(uncertainty)}"])]
     whole = math.floor(100.0 * share["share"] + 1e-9)
     count = "fewer than 1" if whole == 0 and share["share"] > 0.0 else f"{whole}"
-    reached = yield_of(answer)
+    reached = answer.yield_reached
     if reached and reached.tightened and reached.lost_to:
         worst = reached.lost_to[0]
         lost = f"{count} of 100 modules meet every limit, {percent(worst.share)} meet {in_labels(worst.text)}"
-        return [Fact("Manufacturing", [lost, *lever(reached, table_for(answer.design.mode))])]
+        return [Fact("Manufacturing", [lost, *lever(answer)])]
     text = f"{count} of 100 modules meet every limit if assumed values hold"
     return [Fact("Manufacturing", [text], f"by {tolerances_in_words(uncertainty)}")]
 

@@ -8,13 +8,12 @@ import numpy as np
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.cad.assembly.heater_leads import temperatures_in_order
-from tvimdesign.device import Table, table_for
 from tvimdesign.report.output.choices_tables import choice_text, own_choices
 from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, percent, range_text, with_unit
 from tvimdesign.report.output.tables import soft_in_words, stiff_in_words
 from tvimdesign.report.run.blocks.facts import DIGITS, Fact, Values, tolerances_in_words
 from tvimdesign.report.run.blocks.warnings import frozen_turn
-from tvimdesign.report.run.uncertainty_data import changes, yield_of
+from tvimdesign.report.run.uncertainty_data import changes
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.resolve import cost_in_words
@@ -27,7 +26,7 @@ STALLS = 3.5
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
     """Return what `--full` and the page add: thresholds, cooling, idealizations, choices, yield."""
-    table, value = table_for(answer.design.mode), Values(answer, uncertainty)
+    value = Values(answer, uncertainty)
     facts = [
         Fact("Soft", _soft(answer)),
         Fact("Stiff", list(_stiff(value, answer))),
@@ -39,9 +38,9 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Duty", list(_duty_peaks(answer))),
         Fact("Accepts", list(_accepts(answer))),
         Fact("Cost", list(_cost(value, answer.design.choices))),
-        *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
-        *chosen_fact(answer), *_current(answer, table), *front_fact(front, table),
-        *_yield(answer, uncertainty, table),
+        *(Fact("Idealized ~", [_idealized(idealization, answer)]) for idealization in answer.idealizations),
+        *chosen_fact(answer), *_current(answer), *front_fact(answer, front),
+        *_yield(answer, uncertainty),
     ]  # fmt: skip
     return [fact for fact in facts if fact.parts]
 
@@ -81,12 +80,12 @@ def _soft(answer: StudyResult) -> list[str]:
     stalling = stalling_in_words(answer.histories.get("softening"), answer.design.values["softening_time"])
     notes = ("dynamic stiffness counts damping, too", "plausible cases have their own value at the hot point",
              "the joint softens as slices of PCL melt, before the coldest has")  # fmt: skip
-    return [soft_in_words(answer.design, table_for(answer.design.mode)), *notes, *filter(None, [stalling])]
+    return [soft_in_words(answer.design), *notes, *filter(None, [stalling])]
 
 
 def _stiff(value: Values, answer: StudyResult) -> Iterator[str]:
     """Say what stiff means, when the layer is frozen, and what cooling by current buys."""
-    yield stiff_in_words(answer.design, table_for(answer.design.mode))
+    yield stiff_in_words(answer.design)
     yield f"frozen {value('frozen_time')} after heating stops"
     if not answer.cooling.able:
         yield "cooled by the air alone: this heater cannot cool"
@@ -127,7 +126,8 @@ def _accepts(answer: StudyResult) -> Iterator[str]:
         yield f"{', '.join(answer.accepted_in_vain)}: not needed, the design is within the rating"
 
 
-def _idealized(idealization: Any, answer: StudyResult, table: Table) -> str:
+def _idealized(idealization: Any, answer: StudyResult) -> str:
+    table = answer.design.table
     required = [limit["output"] for limit in answer.design.study["require"]]
     headlines = ["spring_stiffness", "least_spring_stiffness", *(row.name for row in table.outputs if row.headline)]
     first = dict.fromkeys(name for name in (*required, *headlines) if name in idealization.as_drawn)
@@ -141,13 +141,14 @@ def _idealized(idealization: Any, answer: StudyResult, table: Table) -> str:
     return f"{idealization.text}: {idealization.leaves_out} ({rows}){''.join(shown)}"
 
 
-def front_fact(front: Any, table: Table) -> list[Fact]:
+def front_fact(answer: StudyResult, front: Any) -> list[Fact]:
     """Return the spans of the front, if the study asks for one."""
     if front is None or not front.points:
         return []
     spans = []
     for name in front.outputs:
-        values, unit = [from_si(point.values[name], table.unit(name)) for point in front.points], table.unit(name)
+        unit = answer.design.table.unit(name)
+        values = [from_si(point.values[name], unit) for point in front.points]
         spans.append(f"{label(name)} {ends_text(min(values), max(values))} {pretty(unit)}".rstrip())
     knee = [] if front.knee is None else [f"knee: point {front.knee + 1}"]
     return [Fact("Front", [f"{len(front.points)} designs", *spans, *knee], listing=True)]
@@ -158,7 +159,7 @@ def chosen_fact(answer: StudyResult) -> list[Fact]:
     choosing = answer.solution.choosing if answer.solution else None
     if choosing is None or not choosing.best:
         return []
-    table, ranked = table_for(answer.design.mode), choosing.best[0].choices
+    table, ranked = answer.design.table, choosing.best[0].choices
     own, shown = (
         {name: choice_text(name, word, table) for name, word in choices.items()}
         for choices in (own_choices(answer), ranked)
@@ -174,23 +175,23 @@ def chosen_fact(answer: StudyResult) -> list[Fact]:
     return [Fact("Chosen", [*(f"{label(name)} {word}" for name, word in own.items()), *how], listing=True)]
 
 
-def _current(answer: StudyResult, table: Table) -> list[Fact]:
+def _current(answer: StudyResult) -> list[Fact]:
     """Return what currents that follow a profile buy against the best constant ones, which have no margins."""
     best = answer.solution.constant if answer.solution else None
     if best is None or not answer.has_design or answer.solution is None:
         return []
     text = f"follows a profile while {' and '.join(answer.design.current_profiles)}"
-    reached = yield_of(answer)
+    reached = answer.yield_reached
     if reached is None:
         worse = 100.0 * (best.objective / answer.solution.objective - 1.0)
         return [Fact("Current", [f"{text}; the best constant current is {worse:.2g} % worse"])]
-    gain = ", ".join(changes(answer, best.values, reached.nominal, table))
+    gain = ", ".join(changes(answer, best.values, reached.nominal))
     return [Fact("Current", [f"{text}; without margins, from the best constant current to it: {gain}"])]
 
 
-def _yield(answer: StudyResult, uncertainty: Mapping[str, Any], table: Table) -> list[Fact]:
+def _yield(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
     """Return the yield: what it covers, what margins cost if it was asked for, and what raises it."""
-    share, reached, parts = uncertainty.get("parts_yield"), yield_of(answer), []
+    share, reached, parts = uncertainty.get("parts_yield"), answer.yield_reached, []
     robust = answer.design.study.get("robust") or {}
     if share is not None:
         low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
@@ -199,7 +200,7 @@ def _yield(answer: StudyResult, uncertainty: Mapping[str, Any], table: Table) ->
         if uncertainty["left_out"]:
             parts.append(f"{len(uncertainty['left_out'])} that never happen or follow a profile are not counted")
     if reached is not None:
-        cost = ", ".join(changes(answer, reached.nominal, answer.design.values, table))
+        cost = ", ".join(changes(answer, reached.nominal, answer.design.values))
         parts.append(f"target {percent(reached.target)}, without margins {percent(reached.nominal_together)}")
         parts.append(f"the margins take {cost}")
     elif share is not None and share["share"] < _GOOD and robust.get("share") is None:

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Cell, Grid, Head, Tone
 from tvimdesign.report.output.numbers import in_unit, label, number, range_text
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, on_limit, value_text
@@ -52,7 +51,7 @@ class Requirement:
 
 def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Requirement]:
     """Return an entry for each output the study requires something of, then the machine's violated rules."""
-    table, intervals = table_for(answer.design.mode), uncertainty.get("intervals", {})
+    table, intervals = answer.design.table, uncertainty.get("intervals", {})
     limits_by_output: dict[str, list[Mapping[str, Any]]] = {}
     for limit in (*answer.design.study["require"], *answer.design.study.get("simulated", ())):
         limits_by_output.setdefault(limit["output"], []).append(limit)
@@ -65,14 +64,14 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
             continue
         doubtful, met_in = _least_met(checks, uncertainty)
         first = measure_first(doubtful or name, uncertainty)
-        row = _requirement(answer, table, name, _limit_text(limits, table.unit(name)), checks)
-        spread = range_text(_interval(_limited(checks, name, table), intervals))
+        row = _requirement(answer, name, _limit_text(limits, table.unit(name)), checks)
+        spread = range_text(_interval(_limited(answer, name, checks), intervals))
         state = _hot_states(answer) if table.output(name).at_end in {check.output for check in checks} else ""
         depends = label(first) if first else ""
         rows.append(replace(row, range=spread, met_in=met_in, depends_on=depends, state=state))
     violated = [check for check in answer.checks if check.origin != "require" and not check.met]
     for check in sorted(violated, key=lambda check: check.worst):
-        rows.append(_requirement(answer, table, check.output, check.text.removeprefix(check.output).strip(), [check]))
+        rows.append(_requirement(answer, check.output, check.text.removeprefix(check.output).strip(), [check]))
     return rows
 
 
@@ -111,9 +110,9 @@ def _least_met(checks: Sequence[ConstraintCheck], uncertainty: Mapping[str, Any]
     return output, share
 
 
-def _limited(checks: Sequence[ConstraintCheck], name: str, table: Table) -> list[str]:
+def _limited(answer: StudyResult, name: str, checks: Sequence[ConstraintCheck]) -> list[str]:
     """Return an output and those that a limit on it limits as well: the stiffness over the stroke."""
-    parts = table.output(name).least_of
+    parts = answer.design.table.output(name).least_of
     return list(dict.fromkeys([name, *(check.output for check in checks if check.output not in parts)]))
 
 
@@ -133,37 +132,35 @@ def _interval(names: Sequence[str], intervals: Mapping[str, Mapping[str, Any]]) 
     return {"value": None, "low": min(lows), "high": max(highs)} if None not in lows + highs else intervals[names[0]]
 
 
-def _requirement(
-    answer: StudyResult, table: Table, name: str, limit_text: str, checks: Sequence[ConstraintCheck]
-) -> Requirement:
+def _requirement(answer: StudyResult, name: str, limit_text: str, checks: Sequence[ConstraintCheck]) -> Requirement:
     check = min(checks, key=lambda check: check.worst)
-    stands, tone = _stands(answer, check, table)
-    got = _got(answer, _limited(checks, name, table), table.unit(name), check)
+    stands, tone = _stands(answer, check)
+    got = _got(answer, _limited(answer, name, checks), answer.design.table.unit(name), check)
     return Requirement(name, limit_text, got, "", stands, tone, check.worst)
 
 
 def _got(answer: StudyResult, names: Sequence[str], unit: str, check: ConstraintCheck) -> str:
     """Return the value of the first output; `5.2 to 5.8` if the limit is on the others too."""
-    name, table = names[0], table_for(answer.design.mode)
+    name = names[0]
     if name in answer.intervals:
-        text = value_text(answer, name, table, rounded=True)
+        text = value_text(answer, name, rounded=True)
     elif check.absolute and check.met and abs(check.margin) <= NOTHING and check.output == name:
         text = number(on_limit(check, unit))
     elif len(names) > 1:
         values = [from_si(answer.design.value(output), unit) for output in names]
         text = " to ".join(dict.fromkeys(number(end) for end in (min(values), max(values))))
     else:
-        text = value_text(answer, name, table, rounded=True)
+        text = value_text(answer, name, rounded=True)
     return text + mark(name, answer)
 
 
-def _stands(answer: StudyResult, check: ConstraintCheck, table: Table) -> tuple[str, Tone]:
+def _stands(answer: StudyResult, check: ConstraintCheck) -> tuple[str, Tone]:
     """Return the margin, or how a limit without any stands; `3 %, active` if the optimum is at its tolerance margin."""
     if not check.met:
-        return f"violated by {margin_text(check, table).lstrip('-')}", "bad"
+        return f"violated by {margin_text(check, answer.design.table).lstrip('-')}", "bad"
     if check in answer.undecided:
         return "open: history decides", "warn"
     if abs(check.margin) <= NOTHING:
         return "at the limit", "warn"
-    margin = margin_text(replace(check, margin=check.worst), table)
+    margin = margin_text(replace(check, margin=check.worst), answer.design.table)
     return (f"{margin}, active", "warn") if is_active(check, answer) else (margin, "")

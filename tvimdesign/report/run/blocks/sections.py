@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
 from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
@@ -12,7 +11,7 @@ from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
 from tvimdesign.report.run.reasons import complaint, sentences
-from tvimdesign.report.run.uncertainty_data import lost_in_words, yield_of
+from tvimdesign.report.run.uncertainty_data import lost_in_words
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import share_in_doubt
 
@@ -35,7 +34,7 @@ def text_sections(answered: AnsweredStudy) -> list[Section]:
 
 def conflict_points(answered: AnsweredStudy) -> Points:
     """Return what cannot hold together, what is violated least, and what to do."""
-    return Points(complaint(answered.result, answered.study.table).splitlines()[1:])
+    return Points(complaint(answered.result).splitlines()[1:])
 
 
 def module_section(answered: AnsweredStudy) -> Section:
@@ -60,7 +59,7 @@ def search_section(answered: AnsweredStudy) -> list[Section]:
         at_start = sum(answer.design.study["minimize"].values())
         lines.insert(0, f"Objective {answer.solution.objective:.5g}; {at_start:.5g} at the study's first values.")
     blocks: list[Block] = [Points(lines)] if lines else []
-    choosing, table = answer.solution.choosing if answer.solution else None, table_for(answer.design.mode)
+    choosing, table = answer.solution.choosing if answer.solution else None, answer.design.table
     if choosing is not None and choosing.best:
         price = price_in_words(choosing, table, choices_with_margins(answer))
         blocks += [tables.choices_grid(choosing, table), Words([*filter(None, [price]), tally_in_words(choosing)])]
@@ -71,13 +70,13 @@ def search_section(answered: AnsweredStudy) -> list[Section]:
 
 def _robustness(answer: StudyResult) -> list[str]:
     """Say what `sigma` means, or to which limits most modules are lost."""
-    robust, reached = answer.design.study.get("robust"), yield_of(answer)
+    robust, reached = answer.design.study.get("robust"), answer.yield_reached
     if robust and answer.solution is not None and reached is None and robust["sigma"] is not None:
         return [
             f"Limits are met by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
             "margin they show; `tvimdesign tolerate` checks that on many modules."
         ]
-    worst = "; ".join(lost_in_words(lost) for lost in reached.lost_to) if reached else ""
+    worst = "; ".join(lost_in_words(answer))
     return [at_its_minimum(f"Most modules are lost to {worst}.")] if worst else []
 
 

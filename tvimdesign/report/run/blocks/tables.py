@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Input, Output, Table, table_for
+from tvimdesign.device import Input, Output, Table
 from tvimdesign.page.blocks import Grid
 from tvimdesign.report.output.choices_tables import choice_text, shares
 from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, percent, range_text
@@ -23,7 +23,7 @@ _NAMED = 4
 
 def variables_grid(answer: StudyResult) -> Grid:
     """Return the start and the end of each variable, with its range."""
-    table, rows = table_for(answer.design.mode), []
+    table, rows = answer.design.table, []
     first = answer.solution.starts[0].begin if answer.solution else {}
     for name, vary in answer.design.study["vary"].items() if answer.solution else ():
         if name not in first and name not in answer.design.choices:
@@ -55,16 +55,16 @@ def choices_grid(choosing: Choosing, table: Table) -> Grid:
 
 def points_grid(answer: StudyResult) -> Grid:
     """Return the quantities that have a value at each operating point."""
-    table, points = table_for(answer.design.mode), list(answer.design.study["operating_points"])
+    table, points = answer.design.table, list(answer.design.study["operating_points"])
     shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
     shown += [row for row in table.outputs if row.per_point and row.headline and row.exists(answer.design.choices)]
     at_end = {"temperature": "softened_temperature", "frequency": "frequency@hot"}
     rows = []
     for row in shown:
         named = [f"{row.name}@{point}" for point in points]
-        values = [value_text(answer, name, table) for name in named]
+        values = [value_text(answer, name) for name in named]
         name = at_end.get(row.name) or getattr(row, "at_end", "")
-        end = value_text(answer, name, table) if name else ""
+        end = value_text(answer, name) if name else ""
         rows.append((f"{row.name}{mark(named[0], answer)}", end, *values, pretty(row.unit), row.description))
     unreached = unreached_points(answer.design.values)
     heads = ("", "heating ends", *(f"{point} (PCL stays cooler)" if point in unreached else point for point in points))
@@ -73,12 +73,12 @@ def points_grid(answer: StudyResult) -> Grid:
 
 def module_grid(answer: StudyResult) -> Grid:
     """Return the headline quantities that have one value; none at the hot point if heating does not get there."""
-    table = table_for(answer.design.mode)
+    table = answer.design.table
     hot_unreached = "hot" in unreached_points(answer.design.values)
     shown = [row for row in table.outputs if row.headline and not row.per_point and row.exists(answer.design.choices)]
     rows = [
-        (row.group, f"{row.name}{mark(row.name, answer)}", value_text(answer, row.name, table), pretty(row.unit),
-         meaning(row.name, answer.design, table))
+        (row.group, f"{row.name}{mark(row.name, answer)}", value_text(answer, row.name), pretty(row.unit),
+         meaning(row.name, answer.design))
         for row in shown if not (hot_unreached and row.at_end)
     ]  # fmt: skip
     return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
@@ -90,7 +90,7 @@ def torque_path_grid(answer: StudyResult) -> Grid:
     The weakest is first. Feet bear what their safety leaves beside the others. The safety is against the torque the
     study asks for, or against the one that is held.
     """
-    table, values, against = table_for(answer.design.mode), answer.design.values, requested_torque(answer.design)
+    table, values, against = answer.design.table, answer.design.values, requested_torque(answer.design)
     parts = [
         name for name in table.output("holding_torque").least_of if table.output(name).exists(answer.design.choices)
     ]
@@ -118,7 +118,7 @@ def currents_grid(answer: StudyResult) -> Grid:
 
 def profile_grid(answer: StudyResult) -> Grid:
     """Return what a current profile buys: this module at its default current, and the best constant current's own."""
-    table, best = table_for(answer.design.mode), answer.solution.constant if answer.solution else None
+    table, best = answer.design.table, answer.solution.constant if answer.solution else None
     driven = [table.phase(phase).current_input for phase in answer.design.current_profiles]
     defaults = {name: getattr(table.quantity(name), "default", None) or 0.0 for name in driven}
     rows = []
@@ -127,14 +127,14 @@ def profile_grid(answer: StudyResult) -> Grid:
         values = [*([best.values[name]] if best else []), default]
         own = "profile" if name in defaults else in_unit(answer.design.value(name), unit)
         texts = (own, *(in_unit(value, unit) for value in values))
-        rows.append((name, *texts, pretty(unit), meaning(name, answer.design, table)))
+        rows.append((name, *texts, pretty(unit), meaning(name, answer.design)))
     heads = ("", "profile", *(["best constant"] if best else []), "default", "unit", "meaning")
     return grid("What letting the current change buys", heads, rows, right=(1, 2, 3) if best else (1, 2))
 
 
 def checks_grid(answer: StudyResult) -> Grid:
     """Return every requirement, and the machine's own rules that are active or violated; a note counts the others."""
-    table = table_for(answer.design.mode)
+    table = answer.design.table
     shown = [check for check in answer.checks
              if check.origin == "require" or check.worst <= NOTHING or is_active(check, answer)]  # fmt: skip
     hidden = len(answer.checks) - len(shown)
@@ -145,7 +145,7 @@ def checks_grid(answer: StudyResult) -> Grid:
         stands = "open" if check in answer.undecided else stands
         because = "the study" if check.origin == "require" else check.origin
         margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least
-        value, unit = value_text(answer, check.output, table, rounded=True), pretty(table.unit(check.output))
+        value, unit = value_text(answer, check.output, rounded=True), pretty(table.unit(check.output))
         rows.append((stands, check.text, value, unit, margin, because))
     heads = ("", "limit", "value", "unit", "margin", "asked by, or what a violation means")
     return grid("Limits", heads, rows, right=(2, 4), code=(), toned=(0,), note=note)

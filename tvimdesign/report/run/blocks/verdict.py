@@ -22,12 +22,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import table_for
 from tvimdesign.page.blocks import Tone
 from tvimdesign.report.output.numbers import in_labels, label, percent
 from tvimdesign.report.output.tables import margin_text
 from tvimdesign.report.run.blocks.warnings import RunWarning, missed_points
-from tvimdesign.report.run.uncertainty_data import yield_of
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import share_in_doubt
@@ -111,7 +109,7 @@ def _unfit(answer: StudyResult) -> Verdict | None:
 def _violated(answer: StudyResult) -> tuple[str, int]:
     """Return the limit that is violated most, in words and by how much, and how many are; empty if none is."""
     violated = sorted((check for check in answer.checks if not check.met), key=lambda check: check.worst)
-    table = table_for(answer.design.mode)
+    table = answer.design.table
     texts = [f"{in_labels(check.text)}, by {margin_text(check, table).lstrip('-')}" for check in violated[:1]]
     return "".join(texts), len(violated)
 
@@ -124,7 +122,7 @@ def _above_rating(answer: StudyResult) -> Verdict | None:
 def _margins_missed(answer: StudyResult) -> Verdict | None:
     if answer.design.status != BELOW_YIELD:
         return None
-    reached = yield_of(answer)
+    reached = answer.yield_reached
     if reached is None:
         return Verdict("margins_missed", "Margins not reached: the time limit ended the search")
     return Verdict("margins_missed", _missed(reached.together, reached.target))

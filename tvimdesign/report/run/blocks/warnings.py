@@ -10,12 +10,11 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.record import own_data, plain_data
 from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.cad.assembly.heater_leads import fuse_to_ask_for
-from tvimdesign.device import Table, table_for
-from tvimdesign.report.output.numbers import label
+from tvimdesign.report.output.numbers import held_by, label, with_unit
 from tvimdesign.report.output.terminal import duration
-from tvimdesign.report.run.blocks.remedies import Remedies, Remedy
 from tvimdesign.report.run.reasons import endings
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
+from tvimdesign.solve.remedies import Remedies, Remedy
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study.design import Design
 
@@ -115,7 +114,7 @@ def _of_frozen_turn(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarn
     remedy = remedies.of("joint_stiffness_in_play", [filled(hint["mend"], places)])
     say, but = (filled(hint.get(key, ""), places) for key in ("say", "but"))
     cure = _cure(answer, remedy) if answer.solution is not None else ""
-    if cure in ("", remedy.words):  # sizes alone do not cure
+    if not cure or remedy.bound:  # sizes alone do not cure
         cure = "; ".join(filter(None, [cure, hint["else"]]))
     yield RunWarning(say, cure, hint.get("level", ""), but)
 
@@ -125,12 +124,16 @@ def _cure(answer: StudyResult, remedy: Remedy) -> str:
     if answer.solution is None and remedy.line.startswith("require:"):
         return f"{_VARY} {remedy.line}"
     how = "write" if remedy.tried else _OTHER_SIZES if remedy.failed else "may help:"
-    return f"{how} {remedy.line}" if remedy.line else remedy.words
+    if remedy.bound is None:
+        return f"{how} {remedy.line}" if remedy.line else ""
+    output, is_most, (value, limits) = remedy.bound
+    most = with_unit(value, answer.design.table.unit(output), 3)
+    return f"{held_by(limits)} limit the {label(output)} to at {'most' if is_most else 'least'} {most}"
 
 
 def _of_advice(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarning]:
     """Yield ratings and advice that the design does not follow, the gravest first."""
-    table, above = table_for(answer.design.mode), answer.design.above_rating
+    table, above = answer.design.table, answer.design.above_rating
     levels = {check.output: "grave" if check.output in above else _hint(check.output, check.value).get("level", "")
               for check in answer.warnings}  # fmt: skip
     harmless = "" if missed_points(answer) else "hot_point_margin"
@@ -141,13 +144,13 @@ def _of_advice(answer: StudyResult, remedies: Remedies) -> Iterator[RunWarning]:
         cure = cure or filled(_hint(check.output).get("ask", ""), {"fuse": fuse_to_ask_for(answer.design)})
         if check.output in above:
             cure = f"{cure} or accept: [{check.output}]".removeprefix(" or ")
-        text = advice_text(check.output, check.value, check.origin, table)
+        text = advice_text(check.output, check.value, check.origin, table.unit(check.output))
         yield RunWarning(text, cure, levels[check.output], _hint(check.output, check.value).get("but", ""))
 
 
-def advice_text(output: str, value: float, origin: str, table: Table) -> str:
+def advice_text(output: str, value: float, origin: str, unit: str) -> str:
     """Return advice or a rating that is not followed, with its value (SI) and its reason, `origin` or a shorter one."""
-    hint, shown = _hint(output, value), format_quantity(value, table.unit(output), 3)
+    hint, shown = _hint(output, value), format_quantity(value, unit, 3)
     if "text" in hint:
         return filled(hint["text"], {"size": shown.lstrip("-"), "share": f"{100.0 * abs(value):.2g} %"})
     return f"{label(output)} is {shown}: {hint.get('say', origin)}"
@@ -195,12 +198,12 @@ def missed_points(answer: StudyResult) -> dict[str, str]:
 
     An output that is not known there counts as missed.
     """
-    values, table = answer.design.values, table_for(answer.design.mode)
+    values = answer.design.values
     return {
         point: limit["output"]
         for point in unreached_points(values)
         for limit in answer.design.study["require"]
-        if _misses(limit, point, values, table)
+        if _misses(limit, point, answer.design)
     }
 
 
@@ -211,12 +214,12 @@ def unreached_points(values: Mapping[str, float]) -> list[str]:
     return [point for point, temperature in temperatures.items() if temperature > reached + TEMPERATURE]
 
 
-def _misses(limit: Mapping[str, Any], point: str, values: Mapping[str, float], table: Table) -> bool:
+def _misses(limit: Mapping[str, Any], point: str, design: Design) -> bool:
     """Return whether a requirement at a point is not met when heating stops; True if that is not known."""
-    name, at_end = limit["output"], table.output(limit["output"]).at_end
+    name, at_end = limit["output"], design.table.output(limit["output"]).at_end
     if (name.partition("@")[2] or (at_end and "hot")) != point:
         return False
     if not at_end or point != "hot":
         return True
-    over = values[at_end] - limit["limit"]
+    over = design.values[at_end] - limit["limit"]
     return not (-over if limit["sense"] == ">=" else over) <= CYCLE_TOLERANCE * abs(limit["limit"])

@@ -7,14 +7,13 @@ allow all of them, with the margins that the study asks for. What depends on a s
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.record import plain_data
 from tvimdesign.base.units import parse_quantity
 from tvimdesign.device import Choice, Input, Table, table_for
-from tvimdesign.report.output.numbers import in_labels, label, with_unit
 from tvimdesign.solve.nlp.constraints import advice_of, on_cycle, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult
@@ -22,18 +21,25 @@ from tvimdesign.solve.uncertainty.robust import Extreme, least_with_margins
 from tvimdesign.study import Study, given, read_study_text
 from tvimdesign.study.written_studies import started_at
 
-_NAMED = 2  # Limits that are named, of those that allow no more
 RULE_TOLERANCE = 1e-9  # By how much, in SI, a rule may seem violated by rounding
+
+
+class Bound(NamedTuple):
+    """The most, or least, of an output (SI) that limits allow, where a remedy would need more, or less."""
+
+    output: str
+    is_most: bool
+    extreme: Extreme
 
 
 @dataclass(frozen=True)
 class Remedy:
-    """A line of the study that cures a warning, or in words why there is none."""
+    """A line of the study that cures a warning, or why there is none."""
 
     line: str
     tried: bool = False
     failed: bool = False  # True if the line does not cure at the numbers of the design
-    words: str = ""
+    bound: Bound | None = None
 
 
 class Remedies:
@@ -46,11 +52,11 @@ class Remedies:
         self._study = Study.model_validate(answer.design.study)
 
     def of(self, output: str, lines: Sequence[str], *, cheap: bool = False) -> Remedy:
-        """Return the first line that cures; else the last one, or why it does not cure; empty without lines.
+        """Return the first line that cures; else the last one, or why it does not cure; no line without lines.
 
         `output` has the advice or rating that the design does not follow. A `cheap` remedy needs no search.
         """
-        refusal: str | None = ""
+        bound: Bound | None = None
         failed: set[str] = set()
         for line in lines:
             entry = plain_data(line)
@@ -64,31 +70,26 @@ class Remedies:
             elif "require" in entry and not (cheap or self._answer.solution is None or self._deadline.passed):
                 if on_cycle(self._table, output):
                     continue
-                refusal = self._misses(line)
-                if refusal is None:
+                possible, bound = self._adopted(line)
+                if possible:
                     return Remedy(line, tried=True)
-        if refusal or not lines:
-            return Remedy("", words=refusal or "")
+        if bound or not lines:
+            return Remedy("", bound=bound)
         return Remedy(lines[-1], failed=lines[-1] in failed)
 
-    def _misses(self, line: str) -> str | None:
-        """Return what is possible instead of a requirement; None, and the requirement is adopted, if it is possible.
-
-        Empty if the search for it does not end.
-        """
+    def _adopted(self, line: str) -> tuple[bool, Bound | None]:
+        """Return whether a requirement is possible, which is adopted then, else what is possible, if that is known."""
         added = read_study_text(f"mode: {self._study.mode}\n{line}\n").require
         for limit in added:
             sign = -1.0 if limit.sense == ">=" else 1.0
             for margins in (False, True) if self._study.robust else (False,):
                 most = self._least(self._study, limit.output, sign, margins=margins)
                 if most is None:
-                    return ""
+                    return False, None
                 if sign * (most.value - limit.limit) > RULE_TOLERANCE:
-                    value = with_unit(most.value, self._table.unit(limit.output), 3)
-                    end = "most" if sign < 0.0 else "least"
-                    return f"{held_by(most)} limit the {label(limit.output)} to at {end} {value}"
+                    return False, Bound(limit.output, sign < 0.0, most)
         self._study = self._study.model_copy(update={"require": (*self._study.require, *added)})
-        return None
+        return True, None
 
     def _least(self, study: Study, output: str, weight: float = 1.0, *, margins: bool = False) -> Extreme | None:
         """Return the least value of an output that arithmetic allows; None if that is not known."""
@@ -97,12 +98,6 @@ class Remedies:
             return least_with_margins(started, output, weight, margins=margins)
         except TvimError:
             return None
-
-
-def held_by(extreme: Extreme) -> str:
-    """Return the limits and ranges that allow no more, the costliest, in words."""
-    texts = [text.removesuffix(" >= 0 mm") for text in extreme.held_by[:_NAMED]]
-    return in_labels(" and ".join(texts)) or "the study's limits"
 
 
 def _changes(entry: Mapping[str, Any], table: Table) -> dict[str, Any]:
