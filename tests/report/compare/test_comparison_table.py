@@ -131,9 +131,9 @@ def test_warnings_are_of_the_same_designs(outcome):
     for name in ("s", "c"):
         drawn: dict[str, Any] = outcome.answers[name]["drawn"]
         assert f"{name}: {drawn['soft']}" in text
-        table = outcome.tables[name]
         shown = [
-            advice_text(warning["output"], warning["value"], warning["because"], table) for warning in drawn["warnings"]
+            advice_text(warning["output"], warning["value"], warning["because"], outcome.unit(warning["output"]))
+            for warning in drawn["warnings"]
         ]
         assert shown
         assert all(f"Warning {name}: {line}" in text for line in shown)

@@ -157,10 +157,10 @@ def test_a_frozen_joint_that_turns_through_its_stroke_is_warned_of(share, level)
 @pytest.mark.slow
 @pytest.mark.parametrize("extra", ["", "  response_criterion: softening\n  softening_band: 2\n"])
 def test_a_run_has_each_warning_that_compare_has(extra):
-    published, table = _published(extra), table_for("shear")
+    published = _published(extra)
     warned = {warning.text: warning for warning in warnings_of(published, [])}
     of_compare = {
-        warning.output: advice_text(warning.output, warning.value, warning.origin, table)
+        warning.output: advice_text(warning.output, warning.value, warning.origin, TABLE.unit(warning.output))
         for warning in published.warnings
     }
     assert set(of_compare.values()) <= set(warned)
