@@ -8,6 +8,9 @@ import numpy as np
 from tvimdesign.device import table_for
 from tvimdesign.study import given, read_study_text
 
+SELF_CUT = {"thread_insert": "none", "link_bolt_ratio": 0.65, "retainer_screw": "iso_7380_m4"}
+"""Screws that cut their threads in the printed plastic, an M4 for the retainer: what a few lines work out by hand."""
+
 
 def inputs_of(mode: str = "shear", /, **module: Any) -> dict[str, Any]:
     """Return the inputs of a module; words are read as in a study ("2 mm", names of records), numbers are in SI."""

@@ -87,7 +87,7 @@ def test_seats_and_threads_have_fits_where_milled():
     ]
     assert requirements.seats[0].size == requirements.seats[0].drawn
     threads = [(thread.screw, thread.made) for thread in requirements.threads]
-    assert threads == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
+    assert threads == [("M3", "insert melted in"), ("M3", "insert melted in")]
     reported = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
     words = [entry["about"] for part in ("seats", "threads") for group in reported[part].values() for entry in group]
     assert max(map(len, words)) <= 21  # what the table has room for

@@ -78,7 +78,7 @@ def test_drawings_dimension_call_out_and_title_the_design(module, drawings):
         "housing": [2 * mm["housing_outer_radius"], 2 * mm["housing_inner_radius"], 2 * mm["hub_radius"],
                     2 * (mm["core_radius"] + mm["running_clearance"]),
                     mm["pin_top_level"] + mm["floor_thickness"] + mm["foot_height"]],
-        "rotor": [2 * mm["rotor_radius"], mm["retainer_screw_depth"], 2 * mm["core_radius"], mm["retainer_screw_pilot"],
+        "rotor": [2 * mm["rotor_radius"], mm["retainer_screw_depth"], 2 * mm["core_radius"], mm["retainer_screw_hole"],
                   mm["link_bottom_level"] + mm["floor_thickness"] + mm["running_clearance"]],
         "link": [mm["link_length"] + 2 * mm["link_half_width"], mm["link_thickness"]],
         "retainer": [2 * (mm["core_radius"] + mm["retainer_lip"]), mm["retainer_screw_clearance"],
@@ -95,7 +95,10 @@ def test_drawings_dimension_call_out_and_title_the_design(module, drawings):
         text.startswith("4× boss ⌀") and f", on ⌀{figure} every 90° from 0°, h 10 to" in text
         for text in texts(drawings["housing"])
     )
-    assert any(text.startswith("4× hole ⌀3.4") and text.endswith("through") for text in texts(drawings["link"]))
+    assert any(
+        text.startswith(f"4× hole ⌀{mm['link_screw_clearance']:.2g}") and text.endswith("through")
+        for text in texts(drawings["link"])
+    )
     for kind in DRAWN:
         lines = set(texts(drawings[kind]))
         mass = 1e3 * design.values[KINDS[kind].volume] * design.values["structure_density"]

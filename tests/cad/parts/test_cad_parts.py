@@ -228,7 +228,8 @@ def test_the_scale_has_dots_every_thirty_degrees_and_a_mark():
 
 def test_dots_of_a_scale_leave_no_thin_wall():
     changes = {"preload_adjuster": "rotary", "coil_diameter": 6.1e-3, "wire_diameter": 1.1e-3}
-    design = design_of("small scale", changes | {"adjuster_screw": "iso_4762_m2", "adjuster_screw_length": 6e-3})
+    changes |= {"adjuster_screw": "iso_4762_m2", "adjuster_screw_length": 6e-3, "thread_insert": "none"}
+    design = design_of("small scale", changes)
     dims = dimensions(design)
     adjuster = drawn_part(dims, "adjuster")
     apart = 2.0 * dims.scale_circle_radius * sin(radians(15.0)) - dims.scale_dot_diameter - dims.hole_compensation
@@ -346,7 +347,7 @@ TWO = {"link_dowel_count": 2, "link_dowel": "iso_8734_2"}
 DRILLED: Mapping[str, tuple[str, Mapping[str, float | str]]] = {
     "two": ("shear", TWO),
     "four": ("shear", {}),
-    "compression": ("compression", {"core_radius": 8.0 * MM, **TWO}),
+    "compression": ("compression", {"core_radius": 8.0 * MM, "link_screw": "iso_4762_m2", **TWO}),
 }
 
 
@@ -456,7 +457,7 @@ def test_screws_alone_and_loose_tangs_have_none_of_it():
     design = design_of("loose", {"link_fit": "clearance", "tang_hold": "hole"})
     dims = dimensions(design)
     assert "link_dowel" not in drawn_parts(dims)
-    kinds = ["polymer", "heater_adhesive", "thermistor", "polyimide_film", "wire_sleeve", "mount_screw"]
+    kinds = ["polymer", "heater_adhesive", "thermistor", "polyimide_film", "wire_sleeve", "thread_patch", "mount_screw"]
     assert [item.kind for item in beside(design, {})] == kinds
     assert drawing_requirements("link", dims, design.choices).seats == []
     assert broken_rules(design_of("fitted", {})) == []

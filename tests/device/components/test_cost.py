@@ -21,8 +21,8 @@ def test_the_cost_is_that_of_all_pieces_and_of_the_material_by_its_mass():
     count = values_of("heater_count pcl_mass spring_count", **RIGID)
     structure = 707.0 * sum(values[f"{part}_mass"] for part in ("housing", "rotor", "link", "retainer"))
     assert values["material_cost"] == pytest.approx(structure + 50.0 * count["pcl_mass"])
-    # M3: 6.50 to 7.91 USD a pack of 100. M4: 9.44 a hundred to 9.47 a fifty.
-    screws = 4.0 * math.sqrt(0.0650 * 0.0791) + math.sqrt(0.0944 * 0.1894)
+    # Five M3, 6.50 to 7.91 USD a pack of 100, and as many inserts, 10.90 USD a pack of 100.
+    screws = 5.0 * (math.sqrt(0.0650 * 0.0791) + 0.1090)
     bought = screws + 4.0 * 12.70 / 50.0 + 2.0 * 13.00 + 1.25 * values["pocket_count"] + 18.0 * count["heater_count"]
     assert values["cost"] == pytest.approx(values["material_cost"] + bought)
     assert values["unpriced_count"] == count["spring_count"] + 1.0  # and the cut-out

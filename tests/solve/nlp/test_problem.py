@@ -218,7 +218,7 @@ MOVED = {
     "an active limit": ["require.peak_power=<= 9 W"],
     "ends of a range": ["vary.current=[0.8 A, 1.2 A]"],
     "a weight": ["minimize.module_mass=4"],
-    "a fixed number": ["core_radius=9.4 mm"],
+    "a fixed number": ["core_radius=10.4 mm"],
     "all of them": ["require.peak_power=<= 10 W", "vary.pcl_thickness=[0.9 mm, 2.2 mm]", "minimize.response_time=2",
                     "stroke=0.09 rad"],
 }  # fmt: skip

@@ -122,7 +122,8 @@ def test_core_holds_until_its_foot_or_the_wall_of_a_hole_yields_in_shear(inputs)
     # The yield of the print across its layers, 31 MPa/sqrt(3), over 1.686 of a plain bar's shear: FE of this core on a
     # sharp foot. A fillet of 1.5 mm leaves 0.934 of it, by FE of round bars on such a plate (fillets.csv).
     # An optimum of paper_shear.yaml with a core of 7.53 mm had 55 MPa at 12 N.m by FE, 31 as reported.
-    filleted = {**inputs, **STIFF_WHEN_WARM, "temperature@cold": 296.15}  # where strengths are measured
+    threads = {"thread_insert": "none", "link_bolt_ratio": 0.65}
+    filleted = {**inputs, **STIFF_WHEN_WARM, **threads, "temperature@cold": 296.15}  # where strengths are measured
     given = {**filleted, "largest_foot_fillet": 0.1e-3}
     bar = 31.0 / np.sqrt(3.0) * 0.5 * np.pi
     held = TABLE.evaluate(given, ["core_holding_torque"])["core_holding_torque"]
