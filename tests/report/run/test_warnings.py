@@ -150,7 +150,7 @@ def test_a_frozen_joint_that_turns_through_its_stroke_is_warned_of(share, level)
     assert [warning.level for warning in warned] == ([] if level is None else [level])
     if warned:
         assert f"{100 * share:.0f} % of the stroke" in warned[0].text
-        assert warned[0].cure == "a wider module, longer stroke or less torque helps"
+        assert warned[0].cure == "require more in a wider module, or ask for a longer stroke or less torque"
         assert bool(warned[0].but) == bool(level)
 
 

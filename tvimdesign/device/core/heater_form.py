@@ -178,6 +178,7 @@ cutout_rules.margins("heater_form.cutout_rules")
 
 _LATE = "the thermal cut-out opens above what it saves: a cooler heater, another heater_fuse, or a better structure"
 _WEAK = "the thermal cut-out takes more than its rated current: another heater_fuse, or heaters in series"
+_CYCLE_ERROR = 0.2  # Of the cycle's temperatures [K]; reports do not warn within it
 _SHORT = "the thermal cut-out holds less than the heater's peak for a week at its rated current: ask its maker"
 
 
@@ -199,7 +200,8 @@ def cutout_holding_margin(m: Module) -> Scalar:
     IEC 60691 asks that it holds for a week; the heater's current may be far below the rated one. Zero if no type fits,
     which `cutout_margin` shows.
     """
-    return np.where(m.cutout_margin >= 0.0, _best_room(m.heater_fuse, "holding_temperature", _borne(m), _peak(m)), 0.0)
+    room = _best_room(m.heater_fuse, "holding_temperature", _borne(m), _peak(m))
+    return np.where(m.cutout_margin >= -_CYCLE_ERROR, room, 0.0)
 
 
 @heat.output("A", advice=(at_least(0.0, _WEAK),))
@@ -251,7 +253,8 @@ def heater_fuse(record: Record, hottest: float, current: float, ratings: Mapping
     the lowest. Raises InputError where no type opens so high, or bears the current.
     """
     margin, band = record.value("working_margin"), record.value("opening_band")
-    stays = [kind for kind in record.table("types") if kind["functioning_temperature"] - band >= hottest + margin]
+    lowest = hottest + margin + band - _CYCLE_ERROR
+    stays = [kind for kind in record.table("types") if kind["functioning_temperature"] >= lowest]
     if not stays:
         most = max(kind["functioning_temperature"] for kind in record.table("types")) - band - margin
         held, hot = (f"{kelvin - ZERO_CELSIUS:.4g} degC" for kelvin in (most, hottest))
