@@ -62,8 +62,8 @@ def test_outputs_scale_with_the_length_as_their_units_say(factor, transmission, 
     assert len(wanted) > 70
     # Where there are no adjusters and no cover their rules have a constant room, of no size.
     # Heat does not scale with the module, nor what it softens and makes creep.
-    # The cut-out is bought in one size.
-    has = {"preload_adjuster": "rotary", "cover": "plate", "heater_fuse": "none",
+    # The cut-out is bought in one size, inserts in few.
+    has = {"preload_adjuster": "rotary", "cover": "plate", "heater_fuse": "none", "thread_insert": "none",
            **STIFF_WHEN_WARM, "structure_creep_energy": 0.0}  # fmt: skip
     module = {**(squeezed if mode == "compression" else inputs), "transmission": transmission, **has}
     module |= {"foot_pairs": 2.0, "turn_speed": 0.5, "axial_clearance": 5e-3} if mode == "lock" else {}
