@@ -78,9 +78,8 @@ def test_a_study_without_room_follows_one_with_room():
 
 def test_a_study_without_room_names_a_diameter_that_has_some(monkeypatch):
     task = JointTask.read(**WRIST)
-    monkeypatch.setattr(
-        sized_joint, "_wider", lambda joint: (replace(joint, diameter=0.084), None) if joint.cautious else 0
-    )
+    roomy = replace(task, diameter=0.084)
+    monkeypatch.setattr(sized_joint, "_wider", lambda joint: (roomy, None) if joint.cautious else 0)
     note = no_room(task, lambda _: None)
     assert "; --diameter '84 mm' leaves room for most of them, by estimate: for each limit alone" in note
     study = read_study_text(study_files.described(study_text(task, "middle"), note), "joint.yaml")
@@ -103,18 +102,13 @@ def test_a_stroke_that_no_hardware_bears_is_refused_before_the_search(monkeypatc
 
 def test_what_no_number_alone_cures_is_cured_by_several(monkeypatch):
     """Name half the usual torque of 100 mm, 8 N*m (100/70)^3 = 23 N*m, and an eighth of it as stiffness."""
-    task, fits = JointTask.read(**WRIST | {"diameter": "100 mm", "torque": "500 N.m"}), 12.0
-    monkeypatch.setattr(sized_joint, "_hardware", lambda joint, **_: "large" if joint.torque < fits else "")
+    task = JointTask.read(**WRIST | {"diameter": "100 mm", "torque": "500 N.m"})
     for alone in ("_other_stiffness", "_less"):
         monkeypatch.setattr(sized_joint, alone, lambda _: None)
     monkeypatch.setattr(sized_joint, "_wider", lambda _: (None, None))
-
-    def refused_joint() -> str:
-        return refusal(task, "joint", nearest(task, "joint", math.inf, lambda _: None))
-
-    assert "  --torque '11 N.m' --stiffness '1.3 N.m/rad'" in refused_joint()
-    fits = 0.0
-    assert "down to 10 % of the torque usual" in refused_joint()
+    for fits, words in (12.0, "--torque '11 N.m' --stiffness '1.3 N.m/rad'"), (0.0, "down to 10 % of the torque usual"):
+        monkeypatch.setattr(sized_joint, "_hardware", lambda joint, most=fits: "large" if joint.torque < most else "")
+        assert words in refusal(task, "joint", nearest(task, "joint", math.inf, lambda _: None))
 
 
 @pytest.mark.gate

@@ -170,8 +170,7 @@ def test_check_says_it_beforehand_of_the_module_a_search_starts_from():
 
 
 def test_a_point_of_a_front_has_its_own():
-    accepts = {"study": {"accept": list(BOTH)}, "accepting": (), "above_rating": ()}
-    design = answered().design.model_copy(update=accepts)
+    design = answered().design.model_copy(update={"study": {"accept": list(BOTH)}})
     point = design_at(design, Point("between", design.values, {}), 2)
     assert point.status == "above_rating"
     assert (point.above_rating, set(point.accepting)) == ((PADS,), set(BOTH))

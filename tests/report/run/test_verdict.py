@@ -67,9 +67,8 @@ def answer(
         study={"require": require, "robust": robust, "minimize": {"module_mass": 1.0}},
     )  # fmt: skip
     of = {"conflict_set": None, "out_of_time": None, "yield_reached": None, **solution}
-    result = SimpleNamespace(design=design, has_design=feasible, checks=checks, solution=SimpleNamespace(**of))
-    result.yield_reached = of["yield_reached"]
-    return cast(StudyResult, result)
+    fields = {"has_design": feasible, "checks": checks, "yield_reached": of["yield_reached"]}
+    return cast(StudyResult, SimpleNamespace(design=design, solution=SimpleNamespace(**of), **fields))
 
 
 def named(parts: list[Any]) -> list[Any]:

@@ -202,7 +202,6 @@ def test_a_requirement_is_tried_beside_the_remedies_before_it():
 
     ((possible, bound),) = tried('layer_strain: "<= 1.6"')
     assert not possible
-    assert bound
     assert bound[:2] == ("layer_strain", False)
     assert bound.extreme.value == pytest.approx(1.664)
     assert set(bound.extreme.held_by[:2]) == {"the range of pcl_thickness", "the range of pcl_outer_radius"}
@@ -210,7 +209,6 @@ def test_a_requirement_is_tried_beside_the_remedies_before_it():
     thin, (possible, bound) = tried('layer_strain: ">= 5.9"', 'pcl_area: "<= 700 mm^2"')
     assert thin == (True, None)
     assert not possible
-    assert bound
     assert 700e-6 < bound.extreme.value < 900e-6
     assert tried('peak_power: "<= 9 W"') == [(False, None)]  # it depends on the switch
 
