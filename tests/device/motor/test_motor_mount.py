@@ -137,7 +137,7 @@ def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives():
     # In mm: a disc of 20.8 with corners of 0.2, printed walls of 1.2, 0.4 to turn in, M3 in plastic (5.25 of thread).
     drawn = {
         "motor_foot_gap": 57.0 - 20.8 - 0.2, "motor_spoke_gap": 21.0 * np.sqrt(0.5) - 3.5 - 0.2,
-        "motor_retainer_gap": (6.0 + 4.0 - 4.0 - 0.4 - 2.5 - 2.2) - 0.4, "motor_spoke_wall_margin": 3.5 - 1.25 - 1.35,
+        "motor_retainer_gap": (6.0 + 4.0 - 4.0 - 0.4 - 2.5 - 1.65) - 0.4, "motor_spoke_wall_margin": 3.5 - 1.25 - 1.35,
         "mount_thread_margin": 16.0 - 10.0 - 5.25, "mount_tip_margin": 6.0 + 10.0 - 16.0,
         "motor_tube_gap": (20.8 - 2.5) - (12.05 + 2.5) - 0.4, "motor_hub_wall_margin": 1.3, "motor_wall_margin": 1.3,
         "motor_barrel_gap": 0.5 * (22.7 - 12.2) - 0.4, "motor_journal_wall_margin": 7.45 - 1.25 - 1.35,
