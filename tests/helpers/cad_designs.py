@@ -130,8 +130,8 @@ def random_blocks(seed: int) -> Design:
             "pin_radius_ratio": draw(0.4, 0.6), "slot_share": draw(0.3, 0.7),
             "vane_count": float(round(draw(2.0, 8.0))), "spring_pairs": float(round(draw(1.0, 3.0))),
         }  # fmt: skip
-        kept = [name for name in WRIST if "screw" in name or name in ("notch_width", "thread_insert")]
-        small = {name: WRIST[name] for name in kept}
+        fastening = [name for name in WRIST if "screw" in name or name in ("notch_width", "thread_insert")]
+        small = {name: WRIST[name] for name in fastening}
         overrides = small | {name: value * MM for name, value in lengths.items()} | numbers
         with np.errstate(invalid="ignore"):
             design = design_of(f"random {seed}", overrides, "compression")
