@@ -46,9 +46,9 @@ def test_parts_have_their_kind_and_steps_come_from_their_side(data):
     assert not any(part["turns"] for part in parts.values())  # neither housing nor springs turn with the rotor
     assert parts["spring_right_1"]["lift"] > parts["housing"]["lift"]
     place = ({"part": "pcl_arc", "from": "above"}, {"part": "rotor", "from": "above"}, {"part": "nut", "from": "below"})
-    step = brought(WrittenStep("Set the rotor.", place), ["rotor", "pcl_arc_1", "pcl_arc_2", "link"])
+    step = brought(WrittenStep("Set the rotor.", [], place), ["rotor", "pcl_arc_1", "pcl_arc_2", "link"])
     assert step == {"text": "Set the rotor.", "parts": ["pcl_arc_1", "pcl_arc_2", "rotor"], "from": "above"}
-    assert brought(WrittenStep("Look.", ()), ["rotor"]) == {"text": "Look.", "parts": [], "from": ""}
+    assert brought(WrittenStep("Look."), ["rotor"]) == {"text": "Look.", "parts": [], "from": ""}
 
 
 @pytest.mark.parametrize("kind", SPRINGS)

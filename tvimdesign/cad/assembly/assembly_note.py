@@ -50,7 +50,7 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     for number, step in enumerate(steps, start=1):
         if step.opens and not steps[number - 2].opens:
             lines += ["", "## Opening it again", ""]
-        picture = f"\n   ![Step {number}]({cad_report.step_picture(number)})" if step.place else ""
+        picture = f"\n   ![Step {number}]({cad_report.step_picture(number)})"
         needs = f"\n   *{step.needs}*  " if step.needs else ""
         lines.append(f"{number}. {step.text}  {needs}{picture}")
     lines += ["", "## Wiring", "", f"![Supply, driver, heaters, cut-out and thermistors]({cad_report.WIRING})", ""]
@@ -141,11 +141,16 @@ class WrittenStep(NamedTuple):
     """One step of a module's note."""
 
     text: str
+    kinds: Sequence[str] = ()  # Of the parts it is about
     place: Sequence[Mapping[str, str]] = ()
     """What comes into its place: `part`, a kind or one part of a kind, and the side it comes `from`."""
     needs: str = ""  # Hands, fixture, tools, access, and what is checked at its end
     tools: Sequence[str] = ()
     opens: bool = False  # True where it takes the module apart again
+
+    def shown(self, names: Sequence[str]) -> list[PlacedPart]:
+        """Return what its picture shows: parts that come into their places; else those it is about, from no side."""
+        return coming(self.place, names) or [PlacedPart(name, "") for name in names if kind_of(name) in self.kinds]
 
 
 _TORQUES = re.compile(r"{(\w+_screw_torque)}")
@@ -166,7 +171,7 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     steps = [
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
-            step.get("place", ()), _needs(step["needs"]).format_map(known),
+            step["kinds"], step.get("place", ()), _needs(step["needs"]).format_map(known),
             [
                 *(tool for tool in str(step["needs"]["tools"]).format_map(known).split(", ") if tool != "none"),
                 *(f"torque driver {known[word]} N·m" for word in _TORQUES.findall(step["text"])),
@@ -178,7 +183,8 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     ]  # fmt: skip
     placed = {kind_of(part["part"]) for step in wanted for part in step.get("place", ())}
     taken = placed.union(*(step["kinds"] for step in wanted))
-    left = [WrittenStep(f"Fit the {_words(item.kind)} ({item.quantity}).") for item in items if item.kind not in taken]
+    others = [item for item in items if item.kind not in taken]
+    left = [WrittenStep(f"Fit the {_words(item.kind)} ({item.quantity}).", [item.kind]) for item in others]
     return [*(step for step in steps if not step.opens), *left, *(step for step in steps if step.opens)]
 
 

@@ -17,7 +17,7 @@ from tvimdesign.base.units import from_si
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, one_solid, place
 from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
-from tvimdesign.cad.assembly.assembly_note import assembly_note, coming, written_steps
+from tvimdesign.cad.assembly.assembly_note import assembly_note, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import as_ordered, beside, bill, bill_csv, fixtures
 from tvimdesign.cad.assembly.heater_leads import heater_order
 from tvimdesign.cad.assembly.module_script import module_script
@@ -352,9 +352,7 @@ def _pictures(job: Job) -> list[SolidCheck]:
     write_exploded(_place(job.folder, cad_report.EXPLODED), placed, numbers)
     write_section(_place(job.folder, cad_report.SECTION), solids, placed)
     written = enumerate(written_steps(job.design, job.dims, items), start=1)
-    steps = {
-        cad_report.step_picture(number): coming(step.place, list(placed)) for number, step in written if step.place
-    }
+    steps = {cad_report.step_picture(number): step.shown(list(placed)) for number, step in written}
     write_steps(job.folder / "out", placed, steps)
     return []
 

@@ -109,7 +109,10 @@ _FROM_BELOW = (VIEWED_FROM[0], VIEWED_FROM[1], -VIEWED_FROM[2])
 
 
 def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str, Sequence[PlacedPart]]) -> None:
-    """Write a picture for each step, by its file: parts before they go in, in colour, over what is there, pale."""
+    """Write a picture for each step, by its file: parts before they go in, in colour, over what is there, pale.
+
+    Parts that a step is about, and moves from no side, are in their places: alone, where none of them stands yet.
+    """
     standing: dict[str, Instance] = {}
     for file, parts in steps.items():
         renderer = render.renderer_on_white()
@@ -118,18 +121,20 @@ def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str
         coming = {}
         for part in parts:
             moved = placed[part.name].matrix.copy()
-            lift = apart * (order.index(_going_with(part.name)) + 1.0) if standing else 0.0
+            lift = apart * (order.index(_going_with(part.name)) + 1.0) if standing and part.side else 0.0
             moved[2, 3] += -lift if part.side == "below" else lift
             coming[part.name] = Instance(placed[part.name].mesh, moved)
-        for group, pale in ((standing, True), (coming, False)):
+        there = standing if any(part.side or part.name in standing for part in parts) else {}
+        there = {name: instance for name, instance in there.items() if name not in coming}
+        for group, pale in ((there, True), (coming, False)):
             for name, instance in group.items():
                 for actor in render.actors(
                     instance.mesh, instance.matrix, _PALE if pale else KINDS[kind_of(name)].colour
                 ):
                     renderer.AddActor(actor)
-        seen = _FROM_BELOW if all(part.side == "below" for part in parts) else VIEWED_FROM
-        render.write_view(folder / file, renderer, standing | coming, seen, _STEP_SIZE, coming)
-        standing |= {part.name: placed[part.name] for part in parts}
+        seen = _FROM_BELOW if parts and all(part.side == "below" for part in parts) else VIEWED_FROM
+        render.write_view(folder / file, renderer, there | coming, seen, _STEP_SIZE, coming)
+        standing |= {part.name: placed[part.name] for part in parts if part.side}
 
 
 def _going_with(name: str) -> str:
