@@ -113,7 +113,7 @@ def test_the_new_study_ends_with_a_module_to_build(process, tmp_path):
     process("new", file)
     done = process("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out", spread="on")
     assert done.returncode == 0, done.stderr
-    assert done.stdout.startswith("Build it · ")
+    assert done.stdout.startswith("Build it; 75 % of plausible cases are asked of each limit alone · ")
 
 
 @cases_of("cli", "bad_input")

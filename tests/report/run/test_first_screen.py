@@ -127,7 +127,7 @@ def test_a_screen_has_its_facts_in_their_order_within_its_lines(name, width):
     value, text = case(name).result.design.value, " ".join(line.strip() for line in first_screen(case(name), width))
     lost = value("lost_motion") / value("stroke")
     rubs = value("friction_torque") / value("spring_torque_full_stroke")
-    for share, words in ((lost, r"of play, (\d+) %"), (rubs, r"(\d+) % (\(\d+ to \d+\) )?of spring torque")):
+    for share, words in ((lost, r"lost, (\d+) %"), (rubs, r"(\d+) % (\(\d+ to \d+\) )?of spring torque")):
         shown = re.search(words, text)
         assert shown, (words, share)
         assert float(shown[1]) / 100.0 == pytest.approx(share, abs=0.006)

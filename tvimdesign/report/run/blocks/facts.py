@@ -142,7 +142,7 @@ def _stroke(value: Values) -> Fact:
     note = f"most by {' and '.join(dict.fromkeys(most))}"
     return Fact(
         "Stroke",
-        [f"{stroke}, less {play} of play, {lost}", *(f"friction {share} of spring torque" for share in others)],
+        [f"{stroke}, less {play} lost, {lost}", *(f"friction {share} of spring torque" for share in others)],
         note,
     )
 
