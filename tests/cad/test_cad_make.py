@@ -3,6 +3,7 @@
 import hashlib
 import json
 import queue
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -47,7 +48,9 @@ def test_every_file_is_there_and_every_check_holds(made):
                 "views/exploded.png", "views/section.png", "views/wiring.svg", "module.py", "springs/spring.pdf",
                 "springs/spring.csv", "print/plate_1.3mf"}  # fmt: skip
     pictures = {file for file in report.files if file.startswith("views/step_")}
-    assert all(f"({picture})" in (report.folder / "assembly.md").read_text("utf-8") for picture in pictures)
+    note = (report.folder / "assembly.md").read_text("utf-8")
+    assert sorted(pictures) == sorted(re.findall(r"\((views/step_\d+\.png)\)", note))
+    assert len(pictures) == len(re.findall(r"^\d+\. ", note, re.M))
     expected |= pictures
     for kind in MODULES[design.mode].kinds(dimensions(design)):
         expected.add(f"step/{kind}.step")
