@@ -1,8 +1,9 @@
 """Opens the files of a module with programs that did not write them: a slicer, and another build of a CAD kernel.
 
-Every 3MF and STL must be manifold as it is and slice; every STEP part must have the volume its own validation property
-states. Both programs are Debian's packages `prusa-slicer` and `gmsh`; if one is missing, a line says so and the
-exit code is 3. The kernel in gmsh is OpenCASCADE too, of another version and build: another kernel is in no package.
+Every 3MF and STL must be manifold as it is and slice; a plate with settings must be sliced into the layers it asks for.
+Every STEP part must have the volume its own validation property states. Both programs are Debian's packages
+`prusa-slicer` and `gmsh`; if one is missing, a line says so and the exit code is 3. The kernel in gmsh is OpenCASCADE
+too, of another version and build: another kernel is in no package.
 """
 
 from __future__ import annotations
@@ -13,11 +14,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
 from pathlib import Path
 
 import trimesh
 
 from tvimdesign.cad import make_cad
+from tvimdesign.cad.export.print_files import SLICER_LAYERS
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
 from tvimdesign.study.design import read_design, write_design
@@ -28,6 +31,7 @@ WANTED = ("prusa-slicer", "gmsh")
 VOLUME = re.compile(r"VOLUME_MEASURE\(\s*([0-9.E+-]+)\)")
 SAME, MESH = 1e-6, 1e-4
 """How far volumes may be from each other, relative: of solids; of meshes, held in single precision."""
+DIGIT = 1e-3  # Last digit of a height in the slicer's code [mm]
 
 
 def main() -> int:
@@ -56,8 +60,24 @@ def main() -> int:
     return 1 if bad else 0
 
 
+def _plate(path: Path) -> str:
+    """Return which heights that a plate's layers must come to are none of the slicer's; nothing where all are."""
+    with zipfile.ZipFile(path) as archive:
+        if SLICER_LAYERS not in archive.namelist():
+            return ""
+        ends = {float(end) for end in re.findall(r'max_z="([0-9.]+)"', archive.read(SLICER_LAYERS).decode())}
+    with tempfile.TemporaryDirectory() as folder:
+        code = Path(folder) / "plate.gcode"
+        _run(["prusa-slicer", "--export-gcode", "--output", str(code), str(path)])
+        heights = [float(height) for height in re.findall(r"^G1 Z([0-9.]+)", code.read_text(), re.MULTILINE)]
+    missed = sorted(end for end in ends if min(abs(height - end) for height in heights) > DIGIT)
+    return f"no layer ends at {missed} mm" if missed else ""
+
+
 def _slicer(path: Path) -> str:
     """Return why a mesh does not slice as it is; nothing where it does."""
+    if path.name.startswith("plate_"):
+        return _plate(path)
     reported = _run(["prusa-slicer", "--info", str(path)])
     facts = dict(line.split(" = ") for line in reported.splitlines() if " = " in line)
     if facts.get("manifold", "").strip() != "yes":

@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
@@ -25,6 +26,9 @@ from tvimdesign.solve.optimizer.refinements import ending_in_time, put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.study import SolverOptions, Study
 from tvimdesign.study.written_studies import started_at
+
+if TYPE_CHECKING:
+    from tvimdesign.solve.uncertainty.robust import Candidate
 
 
 class SearchInterrupted(KeyboardInterrupt):
@@ -219,14 +223,44 @@ def _in_time(study: Study, designs: Sequence[tuple[Relaxation, Run]], deadline: 
 
 def _robust(designs: Sequence[tuple[Relaxation, Run]], eases: bool) -> tuple[Relaxation, Run, Run]:
     """Return the best design that can be made robust: before, after, and as its start is reported."""
-    from tvimdesign.solve.uncertainty.robust import most_robust  # it loads the compiler
+    from tvimdesign.solve.uncertainty.robust import Candidate, most_robust  # it loads the compiler
 
     ranked = sorted(designs, key=lambda pair: order(pair[1]))
-    candidates = [(relaxation.optimizer, run, _sizes(relaxation, run)) for relaxation, run in ranked]
-    place, run = most_robust(candidates, eases=eases)
-    relaxation, nominal = ranked[place]
+    candidates = [Candidate(relaxation.optimizer, run, _sizes(relaxation, run)) for relaxation, run in ranked]
+    place, run = most_robust(candidates, partial(_beside_sizes, ranked[0][0]), eases=eases)
+    relaxation = ranked[place][0] if place < len(ranked) else ranked[0][0]
+    optimizer, nominal, within, margins = candidates[place]
+    if margins:
+        reached, optimizer.margins = optimizer.margins, {}
+        without = optimizer.solve(within, warm=nominal)
+        without.start = replace(without.start, choices=nominal.start.choices)
+        nominal, optimizer.margins = without if without.start.converged else nominal, reached
     run.start = replace(run.start, choices=nominal.start.choices, begin=nominal.start.begin)
     return relaxation, nominal, run
+
+
+def _beside_sizes(relaxation: Relaxation) -> "list[Candidate]":
+    """Return the designs at the sizes beside those of the robust optimum between them, those that bear most first.
+
+    Each has as much as it bears of that optimum's margins. None where records are mixed: such modules cannot be drawn.
+    """
+    from tvimdesign.solve.uncertainty.robust import Candidate, settle
+
+    sizes, optimizer, optima = relaxation.sizes, relaxation.optimizer, relaxation.optima
+    if sizes.mixtures or not sizes.names or not optima:
+        return []
+    optimizer.margins, designs = {}, list[tuple[float, float, Candidate]]()
+    between = settle(optimizer, optima[0], {})
+    margins = {name: margin for name, margin in optimizer.margins.items() if margin > 0.0}
+    for box in sizes.around(relaxation.values(between)):
+        optimizer.margins, ends = {}, sizes.ends(box)
+        run = optimizer.solve(ends, warm=between, moves=margins)
+        if run.start.converged:
+            run.start = replace(run.start, choices=relaxation.choices(box))
+            borne = min((optimizer.margins[name] / margin for name, margin in margins.items()), default=1.0)
+            design = Candidate(optimizer, run, ends, optimizer.margins)
+            designs.append((-round(borne, 3), run.start.objective, design))
+    return [design for *_, design in sorted(designs, key=lambda design: design[:2])]
 
 
 def _sizes(relaxation: Relaxation, run: Run) -> dict[str, tuple[float, float]]:

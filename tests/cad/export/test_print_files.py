@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 import trimesh
 from cad_designs import BEARINGS, BLOCKS, DRIVEN, SPRUNG_BLOCKS, TILES, design_of
+from hypothesis import given
+from hypothesis import strategies as st
 from plate_copies import copies_on_a_plate
 
 from tvimdesign.base.errors import GeometryError
@@ -307,4 +309,23 @@ def test_a_plate_has_every_copy_in_its_place_and_its_settings():
     assert (settings["temperature"], settings["first_layer_bed_temperature"]) == ("240", "85")
     about = root.find(".//{*}metadata[@name='Description']")
     assert about is not None
-    assert about.text == "PETG: 0.4 mm nozzle, layers of 0.2 mm, 3 walls, infill 100 %, nozzle at 240 °C, bed at 85 °C"
+    layers = "layers of 0.2 mm, in PrusaSlicer such that flat faces lie between two"
+    assert about.text == f"PETG: 0.4 mm nozzle, {layers}, 3 walls, infill 100 %, nozzle at 240 °C, bed at 85 °C"
+
+
+@given(tops=st.lists(st.floats(0.02, 3.0), min_size=1, max_size=5))
+def test_flat_faces_lie_between_two_layers(tops):
+    heights = 0.5 + np.cumsum(tops)
+    steps = [
+        trimesh.creation.box(bounds=[[10.0 * i, 0, 0], [10.0 * i + 10.0, 5.0 + i, z]]) for i, z in enumerate(heights)
+    ]
+    ranges = print_files.fitted_layers(trimesh.util.concatenate(steps))
+    ends = [0.2]
+    for low, high, layer in ranges:
+        assert low == ends[-1]
+        assert (high - low) / layer == pytest.approx(round((high - low) / layer), abs=1e-9)
+        assert 0.1 - 1e-6 < layer < 0.3 + 1e-6
+        ends.append(high)
+    away = [min(abs(ends - height)) for height in heights]
+    assert away[-1] < 1e-5  # the largest face
+    assert max(away) < 0.1 + 1e-5

@@ -159,6 +159,12 @@ def test_unsolved_boxes_are_split_in_the_middle_and_lists_ascend():
         assert sum(abs(a - b) for (a, _), (b, _) in zip(box, other, strict=True)) == 1
 
 
+def test_sizes_around_a_value_are_the_next_below_and_above():
+    sizes = Sizes(("a", "b"), ((1.0, 2.0, 3.0), (1.0, 2.0)))
+    assert list(sizes.around({"a": 2.4, "b": 0.5})) == [((1, 1), (0, 0)), ((2, 2), (0, 0))]
+    assert list(sizes.around({"a": 2.0, "b": 2.5})) == [((0, 0), (1, 1)), ((1, 1), (1, 1))]
+
+
 SOLVER = ("solver.starts=2", "solver.cells=6", "solver.fineness=0.67", "solver.alternatives=32")
 SHELVES = yaml.safe_load((ROOT / "tests/cases/shelves.yaml").read_text(encoding="utf-8"))
 """Studies of `benchmarks/` with shorter lists."""

@@ -274,12 +274,37 @@ def test_the_best_design_with_margins_wins(monkeypatch):
     monkeypatch.setattr(robust, "_robust", with_margins)
     monkeypatch.setattr(robust, "same_optimum", lambda *_: False)
     candidates: Any = [
-        (SimpleNamespace(name=name, margins={}, deadline=NEVER, solve=lambda *_, n=name, **__: run(margined[n])),
-         run(nominal[name]), {})
+        robust.Candidate(
+            SimpleNamespace(name=name, margins={}, deadline=NEVER, solve=lambda *_, n=name, **__: run(margined[n])),
+            run(nominal[name]), {},
+        )
         for name in nominal
     ]  # fmt: skip
     place, best = robust.most_robust(candidates)
     assert (place, best.start.objective, drawn) == (1, 1.1, ["first", "second"])
+
+
+def test_designs_beside_are_tried_where_none_is_robust(monkeypatch):
+    """Try two designs that miss the yield, then two beside them with margins, of which the second reaches it."""
+    shares = {"first": 0.03, "second": 0.04, "beside": 0.9, "last": 0.96}
+    began: dict[str, dict[str, float]] = {}
+
+    def candidate(name: str, margins: dict[str, float]) -> Any:
+        optimizer = SimpleNamespace(name=name, margins={}, deadline=NEVER)
+        start = SimpleNamespace(objective=1.0, converged=True)
+        return robust.Candidate(optimizer, SimpleNamespace(start=start, share=shares[name]), {}, margins)  # type: ignore[arg-type]
+
+    def search(optimizer: Any, run: Any, *_: object, **__: object) -> robust.Robust:
+        began.setdefault(optimizer.name, dict(optimizer.margins))
+        return robust.Robust(run, {}, run.share, reached=run.share > 0.95)
+
+    monkeypatch.setattr(robust, "_robust", search)
+    monkeypatch.setattr(robust, "same_optimum", lambda *_: False)
+    candidates = [candidate("first", {}), candidate("second", {})]
+    beside = [candidate("beside", {"mass <=": 0.2}), candidate("last", {"mass <=": 0.1})]
+    place, best = robust.most_robust(candidates, lambda: beside)
+    assert (place, best.share) == (3, 0.96)
+    assert began == {"first": {}, "second": {}, "beside": {"mass <=": 0.2}, "last": {"mass <=": 0.1}}
 
 
 A, B = Constraint("a", "<=", 1.0, 1.0, "require"), Constraint("b", ">=", 1.0, 1.0, "require")

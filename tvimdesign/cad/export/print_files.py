@@ -5,6 +5,7 @@ import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from math import ceil, degrees, hypot, sqrt
 from typing import NamedTuple
 from xml.sax.saxutils import escape, quoteattr
@@ -28,13 +29,16 @@ from tvimdesign.cad.geometry.features import holes, tight_box
 from tvimdesign.cad.geometry.kinds import Production
 
 LINE = 0.4  # Width of a printed line [mm] of the commonest nozzle, which is as wide
-LAYER = 0.2  # Height of a layer [mm]; assumed, 0.1 to 0.3: half of a line
+LAYER, THIN_LAYER = 0.2, 0.1
+"""Height of a layer [mm], half of a line, and of the thinnest; assumed: such a nozzle prints 0.1 to 0.3."""
 GAP = 5.0  # Between parts on the bed [mm]; assumed, 3 to 10: supports stand in it
 CELL = 2.0  # Side of the squares in which a bed is filled [mm]
 _MARGIN = 0.5 * GAP + CELL / sqrt(2.0)
 """How far from a part the middle of a square may lie that has something of half of the gap around it [mm]."""
 SLICER_CONFIG = "Metadata/Slic3r_PE.config"
 """Where PrusaSlicer keeps its settings in a 3MF, a line each behind a semicolon; it skips the first line."""
+SLICER_LAYERS = "Metadata/Prusa_Slicer_layer_config_ranges.xml"
+"""Where it keeps the heights of layers, by the number of an object and ranges of its height."""
 _ROUNDING = 1e-6
 
 
@@ -107,7 +111,8 @@ def walls(dims: Dimensions) -> int:
 def description(dims: Dimensions, material: str, temperatures: Mapping[str, str]) -> str:
     """Return the settings in words, for any slicer; `temperatures` [degC] by their names."""
     heat = "".join(f", {name.removesuffix('_temperature')} at {value} °C" for name, value in temperatures.items())
-    return f"{material}: {LINE:g} mm nozzle, layers of {LAYER:g} mm, {walls(dims)} walls, infill 100 %{heat}"
+    layers = f"layers of {LAYER:g} mm, in PrusaSlicer such that flat faces lie between two"
+    return f"{material}: {LINE:g} mm nozzle, {layers}, {walls(dims)} walls, infill 100 %{heat}"
 
 
 def slicer_config(dims: Dimensions, density: float, temperatures: Mapping[str, str]) -> str:
@@ -140,6 +145,21 @@ def slicer_config(dims: Dimensions, density: float, temperatures: Mapping[str, s
     return "".join(
         f"; {line}\n" for line in ("tvimdesign", "", *(f"{name} = {text}" for name, text in settings.items()))
     )
+
+
+def fitted_layers(body: trimesh.Trimesh) -> list[tuple[float, float, float]]:
+    """Return ranges of height above the first layer, and the height of their layers [mm]: flat faces lie between two.
+
+    Of faces that are nearer to one another than the thinnest layer, the largest does.
+    """
+    flat = np.abs(body.face_normals[:, 2]) > 1.0 - _ROUNDING
+    heights, of_triangle = np.unique(body.triangles_center[flat, 2].round(_DIGITS[1]), return_inverse=True)
+    areas = np.bincount(of_triangle, body.area_faces[flat])
+    ends = [0.0, LAYER]
+    for height in heights[np.argsort(-areas, kind="stable")].tolist():
+        if height > LAYER and min(abs(height - end) for end in ends) > THIN_LAYER - _ROUNDING:
+            ends.append(height)
+    return [(low, high, (high - low) / max(1, round((high - low) / LAYER))) for low, high in pairwise(sorted(ends)[1:])]
 
 
 _DIGITS = (6, 5, 7)
@@ -300,7 +320,8 @@ def plate_bytes(title: str, parts: Sequence[Laid], description: str = "", config
         f'<metadata name="Title">{escape(title)}</metadata><metadata name="Application">tvimdesign</metadata>{about}'
         f"<resources>{''.join(resources)}</resources><build>{''.join(items)}</build></model>\n"
     )
-    plain = '<Default Extension="config" ContentType="text/plain"/>' if config else ""
+    kinds = {"config": "text/plain", "xml": "application/xml"} if config else {}
+    plain = "".join(f'<Default Extension="{end}" ContentType="{kind}"/>' for end, kind in kinds.items())
     types = (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="{_TYPES}">'
         '<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
@@ -313,7 +334,8 @@ def plate_bytes(title: str, parts: Sequence[Laid], description: str = "", config
         "</Relationships>\n"
     )
     entries = {"[Content_Types].xml": types, "_rels/.rels": relations, "3D/3dmodel.model": model}
-    entries |= {SLICER_CONFIG: config} if config else {}
+    if config:
+        entries |= {SLICER_CONFIG: config, SLICER_LAYERS: _layers_xml(parts)}
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as archive:
         for name, text in entries.items():
@@ -322,6 +344,18 @@ def plate_bytes(title: str, parts: Sequence[Laid], description: str = "", config
             entry.create_system = 3
             archive.writestr(entry, text.encode())
     return stream.getvalue()
+
+
+def _layers_xml(parts: Sequence[Laid]) -> str:
+    objects = []
+    for number, part in enumerate(parts, start=1):
+        ranges = "".join(
+            f'<range min_z="{low:.9g}" max_z="{high:.9g}"><option opt_key="extruder">0</option>'
+            f'<option opt_key="layer_height">{layer:.9g}</option></range>'
+            for low, high, layer in fitted_layers(part.body)
+        )
+        objects.append(f'<object id="{number}">{ranges}</object>')
+    return f'<?xml version="1.0" encoding="utf-8"?>\n<objects>{"".join(objects)}</objects>\n'
 
 
 @lru_cache(maxsize=64)

@@ -1,5 +1,7 @@
 """Choices that a study lists: records, sizes of numbers, and boxes of sizes that a search divides."""
 
+import bisect
+import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -118,6 +120,14 @@ class Sizes:
             place = min(range(first, last + 1), key=lambda i: abs(sizes[i] - values[name]))
             places.append((place, place))
         return tuple(places)
+
+    def around(self, values: Mapping[str, float]) -> Iterator[Box]:
+        """Yield the combinations of the sizes beside some values: the next below each, or the next above."""
+        sides = []
+        for name, sizes in zip(self.names, self.sizes, strict=True):
+            above = bisect.bisect_left(sizes, values[name] * (1.0 - SAME_SIZE))
+            sides.append([(place, place) for place in (above - 1, above) if 0 <= place < len(sizes)])
+        return itertools.product(*sides)
 
     def are_sizes(self, values: Mapping[str, float], box: Box) -> bool:
         """Return whether values are the sizes of one combination in a box."""

@@ -4,8 +4,9 @@ By deviations: the spread of what the limits are on comes from exact derivatives
 for what needs no working cycle; the optimum is then sought again. By a yield: see `yield_search`.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 from tvimdesign.base.deadline import Deadline
@@ -37,37 +38,34 @@ _MOVES = (1.0, 0.6, 0.3, 0.15, 0.07, 0.03)  # Shares of its scale by which it is
 _GAIN = 1e-4  # Share of the objective by which another design must be better to be drawn
 _NEAR = 0.1  # Yield from which a better design that misses the target is tried once more, where another reaches it
 
-Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
-"""A design that is not robust: its problem, its run, and the sizes it is kept at."""
+
+class Candidate(NamedTuple):
+    """A design that is not robust: its problem, its run, the sizes it is kept at, the margins it was found with."""
+
+    optimizer: Optimizer
+    run: Run
+    within: Mapping[str, Ends]
+    margins: Mapping[str, float] = MappingProxyType({})
 
 
-def most_robust(candidates: Sequence[Candidate], *, eases: bool = False) -> tuple[int, Run]:
+def most_robust(
+    candidates: list[Candidate], beside: Callable[[], list[Candidate]] = list, *, eases: bool = False
+) -> tuple[int, Run]:
     """Return the place of the best of some designs with what the study asks for, and its robust run.
 
-    Once one reaches it, the others are first solved with its margins: one that is no better there is left. Those that
-    miss it are tried once more, unless a better one reaches it. Where none does, the one that comes nearest is
-    returned; with `eases` its problem has the requirement in the way, eased.
+    Once one reaches it, the others are first solved with its margins: one that is no better there is left. Where none
+    does, designs `beside` are added and tried; then those that miss it are tried once more, unless a better one reaches
+    it. Where none does, the one that comes nearest is returned; with `eases` its problem has the requirement in the
+    way, eased.
 
     Raises TimeOverError where the time is over before any is known to come near.
     """
     tried: list[tuple[int, Robust]] = []
-    for place in _worth_trying(candidates):
-        optimizer, run, within = candidates[place]
-        if tried and optimizer.deadline.passed:
-            break
-        _, best = min(tried, key=_rank, default=(0, None))
-        optimizer.margins = {}
-        if best is not None and best.reached and best.plausible:
-            run = _with_margins(optimizer, run, within, best)
-            if not run.start.converged or run.start.objective > best.run.start.objective * (1.0 - _GAIN):
-                continue
-        try:
-            tried.append((place, _robust(optimizer, run, within, None)))
-        except TimeOverError:
-            if not tried:
-                raise
-            optimizer.deadline.leave_out(MARGINS)
-            break
+    _try(candidates, _worth_trying(candidates), tried)
+    if not any(robust.reached for _, robust in tried):
+        count = len(candidates)
+        candidates += candidates[0].optimizer.deadline.attempt(MARGINS, beside) or []
+        _try(candidates, range(len(candidates))[count : count + MOST_TRIED], tried)
     for place, missed in sorted(tried, key=_rank):
         _, best = min(tried, key=_rank)
         better = missed.share > _NEAR and missed.run.start.objective < best.run.start.objective * (1.0 - _GAIN)
@@ -80,9 +78,30 @@ def most_robust(candidates: Sequence[Candidate], *, eases: bool = False) -> tupl
     return place, robust.run
 
 
+def _try(candidates: Sequence[Candidate], places: Iterable[int], tried: list[tuple[int, Robust]]) -> None:
+    """Seek a robust design from some candidates; add each to those `tried`."""
+    for place in places:
+        optimizer, run, within, margins = candidates[place]
+        if tried and optimizer.deadline.passed:
+            break
+        _, best = min(tried, key=_rank, default=(0, None))
+        optimizer.margins = dict(margins)
+        if best is not None and best.reached and best.plausible:
+            run = _with_margins(optimizer, run, within, best)
+            if not run.start.converged or run.start.objective > best.run.start.objective * (1.0 - _GAIN):
+                continue
+        try:
+            tried.append((place, _robust(optimizer, run, within, None)))
+        except TimeOverError:
+            if not tried:
+                raise
+            optimizer.deadline.leave_out(MARGINS)
+            break
+
+
 def _once_more(candidate: Candidate, missed: Robust) -> Robust:
     """Seek a yield again from a design that misses it, and is stuck there: from many designs beside it."""
-    optimizer, _, within = candidate
+    optimizer, _, within, _ = candidate
     optimizer.margins = dict(missed.margins)
     try:
         return _robust(optimizer, missed.run, within, None, shakes=MANY_SHAKES)
@@ -96,7 +115,7 @@ def _eased(candidate: Candidate, missed: Run) -> EasedRequirement | None:
 
     The costliest is tried first: far off, then nearer, as long as the yield is reached.
     """
-    optimizer, run, within = candidate
+    optimizer, run, within, _ = candidate
     options, deadline = optimizer.study.robust, Deadline(optimizer.deadline.remaining)
     if options is None or options.share is None:
         return None
@@ -158,7 +177,7 @@ def _with_margins(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], ot
 def _worth_trying(candidates: Sequence[Candidate]) -> list[int]:
     """Return the places of the best design and of others that converged, each at an optimum of its own."""
     places = [0]
-    for place, (_, run, _) in enumerate(candidates[1:], start=1):
+    for place, (_, run, *_) in enumerate(candidates[1:], start=1):
         tried = any(same_optimum(run.start, candidates[i][1].start) for i in places)
         if run.start.converged and not tried and len(places) < MOST_TRIED:
             places.append(place)
