@@ -254,9 +254,14 @@ def _polymer(design: Design, titles: Mapping[str, str]) -> Item:
     return Item("polymer", 1, False, record, title, 0.0, ())
 
 
+def _least_rating(design: Design) -> str:
+    """Return the rating that no part exceeds: the heater's, or that of the structure around it if it is lower."""
+    return min("heater_max_temperature", "structure_service_temperature", key=design.value)
+
+
 def _glues(design: Design) -> list[Item]:
     """Return what else holds: the locking of screws in metal and inserts, and the motor's bonded parts."""
-    items, bears = [], rating(design, "structure_service_temperature")
+    items, bears = [], rating(design, _least_rating(design))
     if design.choices["making_method"] == "milled":
         text = f"Thread-locking compound of medium strength for {bears}, for all screws in tapped metal"
         items.append(Item("thread_locker", 1, False, "", text, 0.0, ()))
@@ -272,7 +277,7 @@ def _glues(design: Design) -> list[Item]:
 def _beside_the_module(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return the screws that fix the module, and grease where parts rub."""
     places = greased(design)
-    grease = f"Grease for plastics and metals, for {rating(design, 'structure_service_temperature')}: "
+    grease = f"Grease for plastics and metals, for {rating(design, _least_rating(design))}: "
     items = [Item("grease", 1, False, "", grease + ", ".join(places), 0.0, ())] if places else []
     if design.values.get("drive_height", 0.0) > 0.0:
         return items
@@ -328,8 +333,7 @@ def _heat_conducting_adhesive(design: Design) -> list[Item]:
     if design.choices.get("heater_form", "flexible") == "flexible":
         if design.values.get("thermistor_diameter", 0.0) <= 0.0:
             return []
-        bears = min("heater_max_temperature", "structure_service_temperature", key=design.value)
-        words = f"Heat-conducting adhesive for {rating(design, bears)}, to fill the thermistors' holes"
+        words = f"Heat-conducting adhesive for {rating(design, _least_rating(design))}, to fill the thermistors' holes"
         return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
     area = 1e6 * design.value("heater_area") * design.value("heater_count")
     words = f"Adhesive of modules and spreaders, for {rating(design)}, a thin film over {area:.4g} mm² in all"
