@@ -146,7 +146,7 @@ $(PAGE)/node_modules/.stamp: $(PAGE)/package.json $(PAGE)/package-lock.json
 	@touch $@
 
 page-code: $(PAGE)/node_modules/.stamp
-	$(PAGE_BIN)/eslint --config $(PAGE)/eslint.config.js tvimdesign/page/static tvimdesign/explore/static
+	$(PAGE_BIN)/eslint --config $(PAGE)/eslint.config.js tvimdesign/report/page/static tvimdesign/explore/static
 	$(PAGE_BIN)/tsc --project $(PAGE)/tsconfig.json
 
 format: $(STAMP)  ## let ruff put the code in form

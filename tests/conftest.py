@@ -34,7 +34,7 @@ LONGEST = (
     "tests/paper/",
     "tests/api/",
     "tests/report/run/",
-    "tests/page/",
+    "tests/report/page/",
     "tests/simulation/working_cycle/",
     "tests/solve/pareto/test_front.py",
     "tests/test_docs_commands.py",

@@ -15,7 +15,7 @@ from support import study_path
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.page.page_file import FILE
+from tvimdesign.report.page.page_file import FILE
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.run_page import finish
 from tvimdesign.study.tree import tree_of_file

@@ -20,8 +20,8 @@ from tvimdesign.device import table_for
 from tvimdesign.explore.engine import Answer, Engine, refused
 from tvimdesign.explore.source import open_source
 from tvimdesign.explore.state import PARTS, State
-from tvimdesign.page.page_file import page_fragment
 from tvimdesign.report.output.numbers import all_finite
+from tvimdesign.report.page.page_file import page_fragment
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.run_page import run_page
 from tvimdesign.report.run.study_files import choose_sized

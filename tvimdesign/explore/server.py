@@ -17,7 +17,6 @@ from typing import Any
 from aiohttp import WSCloseCode, WSMsgType, web
 from aiohttp.http_exceptions import HttpProcessingError
 
-import tvimdesign.page
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import own_template
 from tvimdesign.explore.messages import MOST_BYTES
@@ -26,7 +25,10 @@ from tvimdesign.explore.source import open_source
 from tvimdesign.explore.state import PARTS, open_history
 from tvimdesign.report.output.terminal import wide_console
 
-STATIC = {"page": Path(str(resources.files(tvimdesign.page))) / "static", "explore": Path(__file__).parent / "static"}
+STATIC = {
+    "page": Path(str(resources.files("tvimdesign.report.page"))) / "static",
+    "explore": Path(__file__).parent / "static",
+}
 """Folders of code and styles by the names they are imported by."""
 _STYLES = ("page/theme.css", "page/page.css", "page/figures.css", "explore/explore.css")
 HOST = "127.0.0.1"

@@ -15,12 +15,12 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.page.blocks import Grid
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import finite, head, number, number_entry
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import print_grid, wide_console
+from tvimdesign.report.page.blocks import Grid
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.measure_files import Measured, kind_sheets, measure_files
 from tvimdesign.simulation.measurement.reading.headings import read_column_map

@@ -4,11 +4,11 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.page.blocks import Block, Points, Section
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import curves_csv, head, in_unit, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import Progress
+from tvimdesign.report.page.blocks import Block, Points, Section
 from tvimdesign.robot.fmu_file import WrittenFmu
 from tvimdesign.robot.joint_folder import write_joint
 from tvimdesign.robot.joint_model import JointModel

@@ -7,11 +7,11 @@ from typing import Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty, si_unit
-from tvimdesign.page.blocks import Block, Drawn, Grid, Points, Section
 from tvimdesign.report.output.command import Command, design_file, record_files
 from tvimdesign.report.output.numbers import curves_csv, finite, finite_in, head, in_unit
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
+from tvimdesign.report.page.blocks import Block, Drawn, Grid, Points, Section
 from tvimdesign.simulation.trial import Trial
 from tvimdesign.simulation.virtual_tests import find_test
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study

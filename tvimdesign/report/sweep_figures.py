@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from tvimdesign.page.blocks import Drawn
 from tvimdesign.report.output.numbers import axis_label, name_in_words
+from tvimdesign.report.page.blocks import Drawn
 from tvimdesign.sweep.shards import Column, Value
 from tvimdesign.sweep.swept_cells import CellTable, SweptCells
 

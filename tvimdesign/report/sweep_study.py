@@ -15,13 +15,13 @@ from rich.markup import escape
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.results_folder import joined
 from tvimdesign.base.units import pretty
-from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Page, Section, Tone
-from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import head, number
 from tvimdesign.report.output.page_sections import number_cell
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import duration, progress_output, wide_console
+from tvimdesign.report.page.blocks import Cell, Facts, Grid, Head, Page, Section, Tone
+from tvimdesign.report.page.page_file import FILE
 from tvimdesign.report.sweep_figures import figure_data, figures
 from tvimdesign.study.tree import study_file, study_text, tree_of_file
 from tvimdesign.sweep.plan import SweepPlan, plan_of, written

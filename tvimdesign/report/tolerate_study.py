@@ -15,13 +15,13 @@ import numpy as np
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import from_si, pretty, si_unit, to_si
-from tvimdesign.page.blocks import Block, Folded, Grid, Picture, Points, Section
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import axis_label, csv_text, ends_text, finite, head, name_in_words, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.tables import soft_of_module
 from tvimdesign.report.output.terminal import Progress
+from tvimdesign.report.page.blocks import Block, Folded, Grid, Picture, Points, Section
 from tvimdesign.report.run.reasons import complaint
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.result import answer

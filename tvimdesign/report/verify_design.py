@@ -9,10 +9,10 @@ from typing import Any
 from tvimdesign.base.units import pretty
 from tvimdesign.cad.fe.model_comparison import Compared, compare_with_fe, refuse_unsolvable
 from tvimdesign.cad.fe.run_solvers import Solved
-from tvimdesign.page.blocks import Block, Grid, Page, Picture, Points, Section, Words
 from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import csv_text, finite, head, number
 from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.page.blocks import Block, Grid, Page, Picture, Points, Section, Words
 from tvimdesign.study.design import read_design
 
 DATA = "verify.json"

@@ -15,7 +15,7 @@ from small_studies import FOUR_SIZES_IN_SHEAR
 
 from tvimdesign.device import table_for
 from tvimdesign.engine import integrator
-from tvimdesign.page.blocks import Folded, Grid
+from tvimdesign.report.page.blocks import Folded, Grid
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.blocks.facts import _active_constraints
 from tvimdesign.report.run.blocks.requirements import requirements

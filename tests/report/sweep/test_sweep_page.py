@@ -9,9 +9,9 @@ from typing import Any
 import html5lib
 import pytest
 
-from tvimdesign.page.page_file import FILE
 from tvimdesign.report.figures.analysis_figures import sweep
 from tvimdesign.report.output.command import Command
+from tvimdesign.report.page.page_file import FILE
 from tvimdesign.report.sweep_figures import figure_data
 from tvimdesign.report.sweep_study import sweep_page
 from tvimdesign.study.tree import tree_of_values

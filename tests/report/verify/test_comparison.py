@@ -12,9 +12,9 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.cad.fe import model_comparison as comparison
 from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
-from tvimdesign.page.page_file import page_html
 from tvimdesign.report import verify_design as verify_report
 from tvimdesign.report.output.command import Command as OutputCommand
+from tvimdesign.report.page.page_file import page_html
 from tvimdesign.report.verify_design import far, verified, verify_page
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.study import read_study

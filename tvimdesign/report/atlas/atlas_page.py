@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.units import from_si
-from tvimdesign.page.blocks import Cell, Drawn, Facts, Grid, Head, Page, Section
-from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.output.numbers import axis_label, csv_text, head, number
 from tvimdesign.report.output.page_sections import grid, number_cell
 from tvimdesign.report.output.plot_process import Drawing
+from tvimdesign.report.page.blocks import Cell, Drawn, Facts, Grid, Head, Page, Section
+from tvimdesign.report.page.page_file import FILE
 from tvimdesign.study.atlas_studies import Atlas
 from tvimdesign.study.written_studies import study_text
 from tvimdesign.sweep.atlas import FAMILIES, OUTPUTS, AtlasCell, cells_of, compute, front_of, study_of

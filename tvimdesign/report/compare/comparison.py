@@ -9,13 +9,13 @@ from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.page.blocks import Block, Drawn, Folded, Grid, Listing, Points, Section, Warned, Words
 from tvimdesign.report.compare import comparison_table
 from tvimdesign.report.compare.comparison_table import ParetoComparison, Row
 from tvimdesign.report.output.numbers import axis_label, csv_text, finite_in, head, in_unit, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import WIDTH, plain_text, print_section
+from tvimdesign.report.page.blocks import Block, Drawn, Folded, Grid, Listing, Points, Section, Warned, Words
 from tvimdesign.report.run.blocks.warnings import advice_text
 from tvimdesign.solve.pareto.front_shape import leads
 from tvimdesign.study.conditions import Case

@@ -12,10 +12,10 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.results_folder import PROGRESS, ResultsFolder
-from tvimdesign.page.blocks import Block, Page, Section, Tone
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.plot_process import ENDINGS, Drawing, PlotProcess
 from tvimdesign.report.output.terminal import Progress, print_section, progress_output, wide_console
+from tvimdesign.report.page.blocks import Block, Page, Section, Tone
 from tvimdesign.study import Study
 
 PARTLY_DONE = "partly done"  # Status in a manifest

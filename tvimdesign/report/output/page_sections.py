@@ -6,9 +6,9 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Listing, Page, Section, Tone, Words
-from tvimdesign.page.page_file import FILE, page_html
 from tvimdesign.report.output.numbers import number
+from tvimdesign.report.page.blocks import Cell, Facts, Grid, Head, Listing, Page, Section, Tone, Words
+from tvimdesign.report.page.page_file import FILE, page_html
 
 NEVER = 1e300  # Number that `never` is sorted by
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)

@@ -19,7 +19,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tvimdesign.base.interrupts import interrupt_handler, raise_pending
-from tvimdesign.page.blocks import Block, Facts, Folded, Grid, Points, Section, Warned, Words
+from tvimdesign.report.page.blocks import Block, Facts, Folded, Grid, Points, Section, Warned, Words
 
 LABEL = 20  # Columns that a label takes
 DOT = " · "

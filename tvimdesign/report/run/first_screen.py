@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from rich.console import Console
 
 from tvimdesign.base.results_folder import ResultsFolder
-from tvimdesign.page.blocks import Facts, Warned
-from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output import terminal
+from tvimdesign.report.page.blocks import Facts, Warned
+from tvimdesign.report.page.page_file import FILE as PAGE
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.facts import Fact, main_facts, study_fact
 from tvimdesign.report.run.blocks.more_facts import chosen_fact, front_fact, more_facts

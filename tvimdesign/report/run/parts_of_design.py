@@ -10,9 +10,9 @@ from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.units import pretty
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.cad_report import SolidCheck
-from tvimdesign.page.blocks import Block, Cell, Drawn, Folded, Grid, Head, Picture, Section, Steps, Words
 from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.page.blocks import Block, Cell, Drawn, Folded, Grid, Head, Picture, Section, Steps, Words
 
 
 def in_short(checks: Sequence[SolidCheck]) -> str:

@@ -17,13 +17,13 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import from_si
 from tvimdesign.cad.cad_report import PREVIEW
-from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
 from tvimdesign.report.output.command import record_files
 from tvimdesign.report.output.numbers import axis_label, curves_csv, head, name_in_words
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.tables import results_csv
 from tvimdesign.report.output.terminal import DOT, Progress
+from tvimdesign.report.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
 from tvimdesign.report.run import parts_of_design as parts
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import sections

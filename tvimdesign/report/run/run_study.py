@@ -22,9 +22,9 @@ from tvimdesign.base.environment import how_to_install
 from tvimdesign.base.results_folder import ResultsFolder
 from tvimdesign.base.units import format_quantity
 from tvimdesign.cad.make import BackgroundPartsJob
-from tvimdesign.page.blocks import Section, Words
 from tvimdesign.report.output.command import Command, done_in_part, noting
 from tvimdesign.report.output.terminal import Progress, print_lines, progress_output, wide_console
+from tvimdesign.report.page.blocks import Section, Words
 from tvimdesign.report.run.parts_of_design import in_short
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.search import SearchInterrupted

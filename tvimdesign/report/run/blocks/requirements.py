@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.page.blocks import Cell, Grid, Head, Tone
 from tvimdesign.report.output.numbers import in_unit, label, number, range_text
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, on_limit, value_text
+from tvimdesign.report.page.blocks import Cell, Grid, Head, Tone
 from tvimdesign.report.run.blocks.verdict import measure_first
 from tvimdesign.report.run.reasons import is_active
 from tvimdesign.solve.result import ConstraintCheck, StudyResult

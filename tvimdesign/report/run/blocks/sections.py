@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-from tvimdesign.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
-from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
 from tvimdesign.report.output.numbers import at_its_minimum, in_labels, percent
 from tvimdesign.report.output.page_sections import number_cell
+from tvimdesign.report.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
+from tvimdesign.report.page.page_file import FILE as PAGE
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
 from tvimdesign.report.run.reasons import complaint, sentences

@@ -6,11 +6,11 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Output, Table
-from tvimdesign.page.blocks import Grid
 from tvimdesign.report.output.choices_tables import choice_text, shares
 from tvimdesign.report.output.numbers import ends_text, in_unit, label, number, percent, range_text
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, margin_text, mark, meaning, value_text
+from tvimdesign.report.page.blocks import Grid
 from tvimdesign.report.run.blocks.verdict import least_shares, limits_in_doubt
 from tvimdesign.report.run.blocks.warnings import requested_torque, unreached_points
 from tvimdesign.report.run.reasons import is_active

@@ -22,9 +22,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.page.blocks import Tone
 from tvimdesign.report.output.numbers import in_labels, label, percent
 from tvimdesign.report.output.tables import margin_text
+from tvimdesign.report.page.blocks import Tone
 from tvimdesign.report.run.blocks.warnings import RunWarning, missed_points
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
 from tvimdesign.solve.result import StudyResult

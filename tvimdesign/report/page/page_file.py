@@ -12,7 +12,7 @@ from pathlib import PurePosixPath
 from typing import Any
 
 from tvimdesign.base.record import own_template
-from tvimdesign.page.blocks import Block, Drawn, Folded, Page
+from tvimdesign.report.page.blocks import Block, Drawn, Folded, Page
 
 FILE = "report.html"
 MOST = 4_000_000  # Bytes that a page may have, so that a mail takes it

@@ -13,15 +13,15 @@ import pytest
 import yaml
 from support import ROOT
 
-from tvimdesign.page.blocks import Cell, Drawn, Facts, Folded, Grid, Head, Page, Section, Words
-from tvimdesign.page.page_file import MOST, page_html
+from tvimdesign.report.page.blocks import Cell, Drawn, Facts, Folded, Grid, Head, Page, Section, Words
+from tvimdesign.report.page.page_file import MOST, page_html
 
 NASTY = '</script><script>alert(1)</script> & "it\'s"'
 PAGE = Page(
     "A module", "shear module", "OPTIMAL", "good", [Facts([("Weighs", "98 g")])], None,
     [Section("one", "One", [Words([NASTY])])], "Written by a test.",
 )  # fmt: skip
-VENDOR = ROOT / "tvimdesign/page/static/vendor"
+VENDOR = ROOT / "tvimdesign/report/page/static/vendor"
 
 
 @pytest.mark.gate
