@@ -17,7 +17,7 @@ from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.report.output.tables import check_row, margin_text, value_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, drawings
 from tvimdesign.report.run.reasons import complaint, sentences, why_rows
-from tvimdesign.study.design import Design, write_design
+from tvimdesign.study import Design, write_design
 from tvimdesign.study.text.mistakes import did_you_mean
 
 if TYPE_CHECKING:

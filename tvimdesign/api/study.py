@@ -13,11 +13,20 @@ from tvimdesign.api.notebook import shown_progress
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.study import Range, read_tree
+from tvimdesign.study import (
+    Range,
+    StudyTree,
+    node_of,
+    read_tree,
+    tree_of_file,
+    tree_of_text,
+    tree_of_values,
+    tree_yaml,
+    with_value,
+)
 from tvimdesign.study import Study as ResolvedStudy
 from tvimdesign.study.sections import NAMES
 from tvimdesign.study.text.mistakes import Mistakes
-from tvimdesign.study.tree import StudyTree, node_of, tree_of_file, tree_of_text, tree_of_values, tree_yaml, with_value
 from tvimdesign.study.written_studies import example_text
 
 if TYPE_CHECKING:
@@ -206,7 +215,7 @@ class Study:
         """
         from tvimdesign.report.run.run_study import foreseen_ratings
         from tvimdesign.solve.infeasibility.early_checks import refuse_what_cannot_be
-        from tvimdesign.study.resolve import record_checks
+        from tvimdesign.study import record_checks
 
         study = refuse_what_cannot_be(self.resolved)
         return [*record_checks(study), *foreseen_ratings(study)]

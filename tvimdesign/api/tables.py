@@ -10,8 +10,7 @@ from tvimdesign.base.units import from_si
 from tvimdesign.report.output.tables import NOTHING
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves
-from tvimdesign.study import Study
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design, Study
 
 if TYPE_CHECKING:
     import pandas as pd

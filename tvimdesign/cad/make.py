@@ -28,7 +28,7 @@ from tvimdesign.base.processes import (
     wait_for,
 )
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
-from tvimdesign.study.design import Design, write_design
+from tvimdesign.study import Design, write_design
 
 LIMIT = 3600.0  # Seconds of processor time, of all processes together, without a report of progress
 HALF_MADE = ".parts.{}."  # Prefix of the folder in which a process makes parts, where none are kept between runs

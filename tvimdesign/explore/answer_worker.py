@@ -25,9 +25,8 @@ from tvimdesign.report.page.page_file import page_fragment
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.run_page import run_page
 from tvimdesign.report.run.study_files import choose_sized
-from tvimdesign.study.design import Design, design_json
+from tvimdesign.study import Design, design_json, tree_yaml
 from tvimdesign.study.sizing import JointTask
-from tvimdesign.study.tree import tree_yaml
 
 
 def main() -> None:

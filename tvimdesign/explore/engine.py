@@ -29,8 +29,7 @@ from tvimdesign.solve.optimizer.refinements import put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import exceeded, is_met, verify_optimum
 from tvimdesign.solve.result import ConstraintCheck
 from tvimdesign.solve.search import Keep, optimize
-from tvimdesign.study import Options, Range, Study, given, read_tree
-from tvimdesign.study.tree import StudyTree
+from tvimdesign.study import Options, Range, Study, StudyTree, given, read_tree
 
 _ROUNDING = 1e-6  # Margin that is what a solver leaves of zero
 Shown = dict[str, Any]  # Plain data, as JSON has it

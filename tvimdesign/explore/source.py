@@ -13,10 +13,8 @@ from tvimdesign.report.atlas.atlas_page import STUDIES, SUMMARY, module_points
 from tvimdesign.report.run.front_report import points_shown
 from tvimdesign.report.sweep_figures import shown_cells
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
-from tvimdesign.study import Study, read_tree
-from tvimdesign.study.design import Design, read_design
+from tvimdesign.study import Design, Study, StudyTree, read_design, read_tree, tree_of_file, tree_of_values, tree_yaml
 from tvimdesign.study.sections import written
-from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_values, tree_yaml
 from tvimdesign.sweep.swept_cells import SweptCells, is_sweep, open_cells
 
 

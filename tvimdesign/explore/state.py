@@ -19,12 +19,22 @@ from tvimdesign.base.units import from_si, parse_quantity, pretty
 from tvimdesign.device import Choice, Input
 from tvimdesign.explore.messages import Change, SetLimits, SetRange, SetValue, Way
 from tvimdesign.report.output.numbers import label
-from tvimdesign.study import Options, Range, Study, given, read_tree
-from tvimdesign.study.resolve import words_of
+from tvimdesign.study import (
+    Options,
+    Range,
+    Study,
+    StudyTree,
+    given,
+    node_of,
+    read_tree,
+    tree_of_text,
+    tree_yaml,
+    with_value,
+    words_of,
+)
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.text.values import exactly
 from tvimdesign.study.text.yaml_text import Text
-from tvimdesign.study.tree import StudyTree, node_of, tree_of_text, tree_yaml, with_value
 
 SOURCE = "explore"  # Name in messages of the place of a change
 DIGITS = 12  # Digits of a text to edit, in which an angle in degrees is the same angle again

@@ -12,7 +12,7 @@ from tvimdesign.report.page.blocks import Block, Points, Section
 from tvimdesign.robot.fmu_file import WrittenFmu
 from tvimdesign.robot.joint_folder import write_joint
 from tvimdesign.robot.joint_model import JointModel
-from tvimdesign.study.design import Design, read_design
+from tvimdesign.study import Design, read_design
 
 
 def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, as_json: bool) -> None:

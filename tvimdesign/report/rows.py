@@ -18,7 +18,7 @@ from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.numbers import in_unit, label
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.terminal import print_grid, wide_console
-from tvimdesign.study.resolve import words_of
+from tvimdesign.study import words_of
 from tvimdesign.study.text.mistakes import did_you_mean, synonyms
 
 _SHOWN = 8  # Names of a group in the list of groups

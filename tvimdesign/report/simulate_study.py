@@ -15,9 +15,7 @@ from tvimdesign.report.page.blocks import Block, Drawn, Grid, Points, Section
 from tvimdesign.simulation.trial import Trial
 from tvimdesign.simulation.virtual_tests import find_test
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.study import Study, read_tree
-from tvimdesign.study.design import read_design
-from tvimdesign.study.tree import study_file, tree_of_file
+from tvimdesign.study import Study, read_design, read_tree, study_file, tree_of_file
 
 
 def simulate_study(

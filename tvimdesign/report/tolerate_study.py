@@ -26,8 +26,7 @@ from tvimdesign.report.run.reasons import complaint
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.uncertainty.tolerance import GOOD, Preload, Spread, Tolerancing
-from tvimdesign.study import Study, read_study, standard_tolerances
-from tvimdesign.study.design import Design, read_design, write_design
+from tvimdesign.study import Design, Study, read_design, read_study, standard_tolerances, write_design
 from tvimdesign.study.text.values import difference_unit
 
 Row = dict[str, Any]

@@ -13,7 +13,7 @@ from tvimdesign.report.output.command import Command, design_file
 from tvimdesign.report.output.numbers import csv_text, finite, head, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.page.blocks import Block, Grid, Page, Picture, Points, Section, Words
-from tvimdesign.study.design import read_design
+from tvimdesign.study import read_design
 
 DATA = "verify.json"
 FAR = 0.10  # Share by which model and FE may differ before the row is marked

@@ -10,7 +10,7 @@ from tvimdesign.robot.model_files import mjcf, ros2_control, sdf, urdf
 from tvimdesign.simulation.control.sizing import controller_of
 from tvimdesign.simulation.working_cycle.curves import impedance_sweep
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
-from tvimdesign.study.design import Design, write_design
+from tvimdesign.study import Design, write_design
 
 Columns = dict[str, list[float]]
 UNITS = {

@@ -22,9 +22,7 @@ from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL, 
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, exceeded, happened, is_met, sorted_by_acceptance
 from tvimdesign.solve.search import Keep, Search, SearchInterrupted, optimize
 from tvimdesign.solve.variants import Cooling, Idealization, cooling, idealizations
-from tvimdesign.study import Study, given
-from tvimdesign.study.design import Design
-from tvimdesign.study.study import CONTROLLED, Requirement
+from tvimdesign.study import CONTROLLED, Design, Requirement, Study, given
 from tvimdesign.study.written_studies import started_at
 
 ROUNDS = 2  # Searches with tighter limits, at most, where a limit on what is simulated of the design is violated

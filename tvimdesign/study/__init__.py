@@ -1,13 +1,84 @@
-"""The study: reads the user's file, reports every mistake in it, and resolves it to numbers."""
+"""The study: reads the user's file, reports every mistake in it, and resolves it to numbers; the design it comes to."""
 
-from tvimdesign.study.reader import read_study, read_study_text, read_tree
-from tvimdesign.study.resolve import brought_along, brought_along_by, drawn, given
+from tvimdesign.study.design import Design, catalog_of, design_json, read_design, write_design
+from tvimdesign.study.reader import read_study, read_study_text, read_swept, read_tree
+from tvimdesign.study.resolve import (
+    asks_cost,
+    brought_along,
+    brought_along_by,
+    cost_in_words,
+    drawn,
+    given,
+    missing_geometry,
+    record_checks,
+    words_of,
+)  # fmt: skip
 from tvimdesign.study.sections.tolerances import standard_tolerances
-from tvimdesign.study.study import Options, ProfileOptions, Range, Requirement, SolverOptions, Study, Tolerance
+from tvimdesign.study.study import (
+    CONTROLLED,
+    STANDARD_POINTS,
+    Options,
+    ProfileOptions,
+    Range,
+    Requirement,
+    Robust,
+    SolverOptions,
+    Study,
+    Tolerance,
+)  # fmt: skip
 from tvimdesign.study.text.mistakes import StudyError
+from tvimdesign.study.tree import (
+    StudyTree,
+    node_of,
+    study_file,
+    study_text,
+    tree_of_file,
+    tree_of_text,
+    tree_of_values,
+    tree_yaml,
+    with_value,
+    without_section,
+)  # fmt: skip
 
 __all__ = [
-    "Options", "ProfileOptions", "Range", "Requirement", "SolverOptions", "Study", "StudyError", "Tolerance",
-    "brought_along", "brought_along_by", "drawn", "given", "read_study", "read_study_text", "read_tree",
+    "CONTROLLED",
+    "STANDARD_POINTS",
+    "Design",
+    "Options",
+    "ProfileOptions",
+    "Range",
+    "Requirement",
+    "Robust",
+    "SolverOptions",
+    "Study",
+    "StudyError",
+    "StudyTree",
+    "Tolerance",
+    "asks_cost",
+    "brought_along",
+    "brought_along_by",
+    "catalog_of",
+    "cost_in_words",
+    "design_json",
+    "drawn",
+    "given",
+    "missing_geometry",
+    "node_of",
+    "read_design",
+    "read_study",
+    "read_study_text",
+    "read_swept",
+    "read_tree",
+    "record_checks",
     "standard_tolerances",
+    "study_file",
+    "study_text",
+    "tree_of_file",
+    "tree_of_text",
+    "tree_of_values",
+    "tree_yaml",
+    "with_value",
+    "without_section",
+    "words_of",
+    "write_design",
 ]  # fmt: skip

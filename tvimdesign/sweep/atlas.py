@@ -28,9 +28,8 @@ from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.pareto.tradeoff import ONE_POINT
 from tvimdesign.solve.torque_time_map import CYCLE, EMPTY, HOT, MASS, TORQUE, UNANSWERED, map_of
-from tvimdesign.study import Study
+from tvimdesign.study import Requirement, Study
 from tvimdesign.study.atlas_studies import Atlas
-from tvimdesign.study.study import Requirement
 from tvimdesign.study.written_studies import started_at
 from tvimdesign.sweep.run_sweep import key_of, records_hash
 

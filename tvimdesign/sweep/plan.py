@@ -12,12 +12,10 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, parse_quantity
 from tvimdesign.device import Choice
-from tvimdesign.study import Study, read_tree
-from tvimdesign.study.reader import read_swept
+from tvimdesign.study import Study, StudyTree, read_swept, read_tree, with_value, without_section
 from tvimdesign.study.sections.sweeps import EVERY_OUTPUT, SweepBlock, SweptAxis, SweptRange
 from tvimdesign.study.text.mistakes import StudyError
 from tvimdesign.study.text.yaml_text import Node, Text
-from tvimdesign.study.tree import StudyTree, with_value, without_section
 
 Texts = tuple[str, ...]
 _DIGITS = 12  # Of a number between two ends: as many as parse to the same value to 1e-12, and a table still shows

@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.study import Study, read_tree
-from tvimdesign.study.tree import StudyTree, tree_of_file
+from tvimdesign.study import Study, StudyTree, read_tree, tree_of_file
 from tvimdesign.sweep.plan import ALWAYS, SweepPlan, plan_of, set_in
 from tvimdesign.sweep.shards import SHARDS, Column, Shards, Value, columns, rows, write_tables
 

@@ -15,7 +15,7 @@ from tvimdesign.cad.export.mesh import RING, Instance, Mesh, coil_points, part_m
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.exact_kernel import placement
 from tvimdesign.cad.geometry.kinds import KINDS, TURNING, kind_of
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1.0]])
 """glTF measures in metres and its y axis points up."""

@@ -18,8 +18,7 @@ from tvimdesign.cad.parts.common_parts import link_screws
 from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.catalog.offers import between
 from tvimdesign.device import Input, Output, table_for
-from tvimdesign.study.design import Design
-from tvimdesign.study.resolve import cost_in_words
+from tvimdesign.study import Design, cost_in_words
 
 
 def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra: Sequence[Item] = ()) -> bytes:

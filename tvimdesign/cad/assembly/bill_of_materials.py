@@ -26,7 +26,7 @@ from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, is_of_stru
 from tvimdesign.cad.parts import jigs
 from tvimdesign.catalog.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.device.components.tang import BONDED
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 _DRY, _DRY_METAL = 0.2, 0.6
 """Friction of plastic, and of milled pins, below which they are greased: sources of `bore_friction`, `pin_friction`."""

@@ -10,7 +10,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record, own_data
 from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
 from tvimdesign.device.core.heater_form import HeaterFuse, heater_fuse
-from tvimdesign.study.design import Design, catalog_of
+from tvimdesign.study import Design, catalog_of
 
 _HOTTEST = ("peak_heater_temperature", "peak_cold_side_temperature")
 _STRONGEST = ("peak_current", "stiffening_peak_current")

@@ -21,7 +21,7 @@ from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.exact_kernel import ExactKernel
 from tvimdesign.cad.geometry.solids import drawn_by
 from tvimdesign.device import table_for
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 _WIDTH = 116
 _LONG = 80

@@ -5,7 +5,7 @@ from html import escape
 
 from tvimdesign.cad.assembly.bill_of_materials import DIVIDER, Item, driver_inputs
 from tvimdesign.cad.assembly.heater_leads import pad_count
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 _BOX, _HIGH, _GAP, _LEFT = 130, 44, 40, 20
 _RED, _BLACK, _GREY = "#c62828", "#222222", "#607d8b"

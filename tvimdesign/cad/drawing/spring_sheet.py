@@ -15,7 +15,7 @@ from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, issu
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
 from tvimdesign.device.components.tang import BONDED
-from tvimdesign.study.design import Design, catalog_of
+from tvimdesign.study import Design, catalog_of
 
 _N_MM = 1e3
 _BEND = "coils to tang; under 1.5 d it may crack (Newcomb)"

@@ -35,7 +35,7 @@ from OCP.XCAFDoc import (
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.kinds import KINDS, Rgb
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 _STYLES = re.compile(r"^#(\d+) = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\('',", re.MULTILINE)
 _NUMBER = re.compile(r"#(\d+)")

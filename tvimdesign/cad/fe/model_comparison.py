@@ -19,7 +19,7 @@ from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.contacts import tightened_force
 from tvimdesign.physics.solids import fasteners, plates, structure, wedge
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule, resolve_design
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}  # Idealizations that the drawn parts do not have
 SOLVERS = ("joint", "spring", "screws", "link")

@@ -12,7 +12,7 @@ import numpy as np
 
 from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 SOLVERS = Path(__file__).with_name("solvers")
 COARSER = 1.6  # How much larger the elements of the second mesh are, by which the first is judged

@@ -7,7 +7,7 @@ from typing import Any
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.device.table.table import AS_DRAWN
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 _SCALE = {"mm": 1e3, "rad": 1.0, "deg": 1.0, "1": 1.0}
 """From SI to what CAD uses, by the unit a row is written in; rows in other units are no dimensions."""

@@ -27,7 +27,7 @@ from tvimdesign.cad.parts.common_parts import by_feet, link_screws, mounts, ream
 from tvimdesign.cad.parts.fasteners import insert_length, insert_places
 from tvimdesign.cad.parts.fittings import scale
 from tvimdesign.device import table_for
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 _JIG = "casting_jig"
 _NEEDLE = 0.05  # Radius of the upright needle by which the gap between mould and lid is measured [mm]

@@ -26,7 +26,7 @@ from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.device.components.hard_stops import STOPS
 from tvimdesign.device.core.spring_as_drawn import pin_distance
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 ROOM = 3.0 * CHORD  # Between the meshes of parts that are apart [mm]; each mesh is within CHORD of its part
 

@@ -38,7 +38,7 @@ from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, r
 from tvimdesign.cad.jobs.worker import Job, Turn, Work
 from tvimdesign.cad.parts import jigs
 from tvimdesign.cad.parts.common_parts import reamed_places
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 PICTURES = "pictures"  # The work without which a module can still be made: a machine may not be able to render
 _SOLID, _MESH, _PRINTED = "solid.bin", "mesh.npz", "printed.npz"

@@ -23,7 +23,7 @@ from typing import Any
 from tvimdesign.base.user_cache import is_own_folder, read_own_file
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 Reads = dict[str, dict[str, Any]]
 """Value by name, for each part of a design that is read; None for what the design does not have."""

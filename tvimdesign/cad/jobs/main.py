@@ -29,7 +29,7 @@ from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
 from tvimdesign.cad.make import HALF_MADE, WAITING, load_kernel
 from tvimdesign.device import table_for
-from tvimdesign.study.design import Design, catalog_of, read_design
+from tvimdesign.study import Design, catalog_of, read_design
 
 if TYPE_CHECKING:
     from tvimdesign.cad.jobs.cache import Result

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.cad.jobs import main as build_main
-from tvimdesign.study.design import Design, read_design
+from tvimdesign.study import Design, read_design
 
 if TYPE_CHECKING:
     import cadquery as cq

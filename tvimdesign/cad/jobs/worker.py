@@ -25,7 +25,7 @@ from tvimdesign.base.processes import CHECK_EVERY, LIMIT, ProcessorLimit, Proces
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.jobs.cache import Cache, Reads, Result, TrackedDesign
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 Progress = Callable[[str], None]
 

@@ -18,11 +18,9 @@ from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.output.command import Command, design_file, done_in_part
 from tvimdesign.report.output.page_sections import tone_of
 from tvimdesign.report.output.terminal import Progress
-from tvimdesign.study import Study, read_tree
+from tvimdesign.study import Design, Study, design_json, read_design, read_tree, study_text, tree_of_file
 from tvimdesign.study.conditions import Case, differences, refuse_repeated, refuse_unequal
-from tvimdesign.study.design import Design, design_json, read_design
 from tvimdesign.study.text.mistakes import Mistake, StudyError, printable
-from tvimdesign.study.tree import study_text, tree_of_file
 
 
 def compare_studies(

@@ -18,8 +18,8 @@ from tvimdesign.report.output.terminal import WIDTH, plain_text, print_section
 from tvimdesign.report.page.blocks import Block, Drawn, Folded, Grid, Listing, Points, Section, Warned, Words
 from tvimdesign.report.run.blocks.warnings import advice_text
 from tvimdesign.solve.pareto.front_shape import leads
+from tvimdesign.study import Design
 from tvimdesign.study.conditions import Case
-from tvimdesign.study.design import Design
 
 COMPARISONS = {"optimised": "each optimised for itself", "drawn": "as drawn"}
 _DEFAULT_OUTPUTS = ("envelope_diameter", "module_mass", "cycle_time", "response_time")

@@ -29,10 +29,7 @@ from tvimdesign.report.run.uncertainty_data import below_yield, uncertainty_of
 from tvimdesign.solve import anchored_search
 from tvimdesign.solve.pareto.front import FrontSearch
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.study import Study, drawn, read_tree
-from tvimdesign.study.design import Design, read_design
-from tvimdesign.study.resolve import record_checks
-from tvimdesign.study.tree import StudyTree, tree_of_file
+from tvimdesign.study import Design, Study, StudyTree, drawn, read_design, read_tree, record_checks, tree_of_file
 
 
 def compared_design(design: Design, results: Mapping[str, Any]) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from tvimdesign.base.units import format_quantity, from_si, pretty, si_unit
 from tvimdesign.device import Output, Table
 from tvimdesign.report.output.numbers import csv_text, finite, finite_in, listed, number
 from tvimdesign.solve.pareto.front_shape import ALIKE, Lead
+from tvimdesign.study import Design
 from tvimdesign.study.conditions import Case
-from tvimdesign.study.design import Design
 
 Verdict = Literal["better", "worse", "same", "open", ""]
 

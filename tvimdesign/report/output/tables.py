@@ -16,7 +16,7 @@ from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
 from tvimdesign.solve.duty import SHARE, ControlResult, DutyResult
 from tvimdesign.solve.nlp.solution import ActiveConstraint
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
-from tvimdesign.study.design import Design, catalog_of
+from tvimdesign.study import Design, catalog_of
 
 Ends = tuple[float, float]
 FindRecord = Callable[[str, str], Record]

@@ -17,9 +17,7 @@ from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.reasons import conflicts_reported, starts_reported, why
 from tvimdesign.solve.result import Designed, StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
-from tvimdesign.study import Study, drawn, read_tree
-from tvimdesign.study.resolve import record_checks
-from tvimdesign.study.tree import StudyTree
+from tvimdesign.study import Study, StudyTree, drawn, read_tree, record_checks
 
 
 @dataclass

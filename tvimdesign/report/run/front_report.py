@@ -16,8 +16,7 @@ from tvimdesign.report.output.terminal import Progress
 from tvimdesign.solve.pareto.front import Front, FrontSearch, design_at
 from tvimdesign.solve.pareto.tradeoff import Point
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.study import Study
-from tvimdesign.study.design import Design, design_json
+from tvimdesign.study import Design, Study, design_json
 
 
 class FrontOfRun:

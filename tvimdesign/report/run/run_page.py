@@ -36,9 +36,7 @@ from tvimdesign.report.run.front_report import points_shown
 from tvimdesign.report.run.reasons import why_csv
 from tvimdesign.simulation.working_cycle.curves import LOOP_SAMPLES, PHASE_UNITS, Curves, torque_loop
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.study import Study
-from tvimdesign.study.design import Design, write_design
-from tvimdesign.study.tree import StudyTree, study_file, study_text
+from tvimdesign.study import Design, Study, StudyTree, study_file, study_text, write_design
 
 PLACES = {
     "hot_side": "pads, inner side", "near_face": "layer, near face", "far_face": "layer, far face",

@@ -28,10 +28,7 @@ from tvimdesign.report.page.blocks import Section, Words
 from tvimdesign.report.run.parts_of_design import in_short
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.search import SearchInterrupted
-from tvimdesign.study import Study, read_tree
-from tvimdesign.study.design import read_design, write_design
-from tvimdesign.study.resolve import record_checks
-from tvimdesign.study.tree import tree_of_file
+from tvimdesign.study import Study, read_design, read_tree, record_checks, tree_of_file, write_design
 from tvimdesign.study.written_studies import started_at, study_text
 from tvimdesign.sweep.plan import swept_cells
 

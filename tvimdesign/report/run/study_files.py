@@ -12,16 +12,14 @@ from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import BelowYieldError, InfeasibleError, InputError
 from tvimdesign.base.units import format_quantity, pretty
 from tvimdesign.report.output.numbers import ends_text, held_by, label
-from tvimdesign.study import written_studies
-from tvimdesign.study.design import read_design
+from tvimdesign.study import read_design, tree_of_text, written_studies
 from tvimdesign.study.sizing import STROKE, JointTask, in_options
 from tvimdesign.study.text.mistakes import printable
-from tvimdesign.study.tree import tree_of_text
 
 if TYPE_CHECKING:
     from tvimdesign.report.run.answered_study import AnsweredStudy
     from tvimdesign.solve.sized_joint import NoHardware
-    from tvimdesign.study.tree import StudyTree
+    from tvimdesign.study import StudyTree
 
 
 def list_examples() -> None:

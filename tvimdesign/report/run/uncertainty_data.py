@@ -16,8 +16,7 @@ from tvimdesign.report.output.terminal import duration
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, uncertainty_at
-from tvimdesign.study import Study
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design, Study
 from tvimdesign.study.text.values import difference_unit
 
 _SPREAD = "TVIMDESIGN_SPREAD"

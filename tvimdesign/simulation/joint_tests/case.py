@@ -14,7 +14,7 @@ from tvimdesign.simulation.link_motion.sampled_motion import OneSided, with_loss
 from tvimdesign.simulation.trial import Column, CurveTable, Finding
 from tvimdesign.simulation.working_cycle.curves import fractions_at, left_at
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
-from tvimdesign.study.study import STANDARD_POINTS
+from tvimdesign.study import STANDARD_POINTS
 
 LINEAR = (
     "The PCL is linear at every strain: it does not soften with strain, and yields only where a note says so. The "

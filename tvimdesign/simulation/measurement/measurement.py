@@ -70,8 +70,7 @@ def endings(blocks: Sequence[Block]) -> list[str]:
 def resolve_measured(source: Path) -> ResolvedModule:
     """Return the module of a study, or of a result's design.json."""
     from tvimdesign.simulation.working_cycle.device_functions import resolve_design, resolve_study
-    from tvimdesign.study import read_study
-    from tvimdesign.study.design import read_design
+    from tvimdesign.study import read_design, read_study
 
     return resolve_design(read_design(source)) if source.suffix == ".json" else resolve_study(read_study(source))
 

@@ -20,7 +20,7 @@ from tvimdesign.physics.solids.structure import shear_yield
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine
 from tvimdesign.simulation.working_cycle.curves import HISTORIES, fractions_at, melting_range
 from tvimdesign.simulation.working_cycle.device_functions import ResolvedModule
-from tvimdesign.study.study import STANDARD_POINTS
+from tvimdesign.study import STANDARD_POINTS
 
 ROOM = 23.0 + ZERO_CELSIUS  # Temperature of a yield strength [K]
 _NO_STRESS = 1e-30

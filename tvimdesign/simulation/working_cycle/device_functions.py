@@ -25,8 +25,7 @@ from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.recordings import Recordings
 from tvimdesign.simulation.working_cycle.symbols import ca, symbols
-from tvimdesign.study import Study, brought_along, given
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design, Study, brought_along, given
 
 MOST_STRUCTURES = 8  # Structures whose functions a thread keeps
 

@@ -14,8 +14,7 @@ from tvimdesign.device.components.cost import GROUP as COST_GROUP
 from tvimdesign.device.table.quantity import Simulated, Supplied
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture, discrete_records, listed_records, with_records
-from tvimdesign.study import Study, given
-from tvimdesign.study.resolve import asks_cost
+from tvimdesign.study import Study, asks_cost, given
 
 Records = dict[str, str]
 

@@ -11,8 +11,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
 from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.table.quantity import Feature, Rule
-from tvimdesign.study import Range, Study, brought_along_by, given
-from tvimdesign.study.resolve import missing_geometry
+from tvimdesign.study import Range, Study, brought_along_by, given, missing_geometry
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit without simulation may be violated: the solver's tolerance with a margin."""

@@ -16,8 +16,7 @@ from tvimdesign.solve.nlp.problem import LATEST
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, Constant, Start, same_optimum
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.study import Study
-from tvimdesign.study.study import Requirement
+from tvimdesign.study import Requirement, Study
 
 
 class ConstantCurrentOptimum:

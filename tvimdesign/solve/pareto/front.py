@@ -22,8 +22,7 @@ from tvimdesign.solve.optimizer.verify_optimum import exceeded, sorted_by_accept
 from tvimdesign.solve.pareto import front_shape as shape
 from tvimdesign.solve.pareto.front_shape import Frame
 from tvimdesign.solve.pareto.tradeoff import ONE_POINT, OUT_OF_TIME, Failure, FolderMemory, Point, Tradeoff
-from tvimdesign.study import Study
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design, Study
 
 SIDE_WEIGHT = 1e-2
 """Weight of the other outputs against the one that is made small, both as ratios to the optimum: a front ends where a

@@ -28,8 +28,7 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import (
     judges_modules,
     unmeasured_inputs,
 )
-from tvimdesign.study import Study, standard_tolerances
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design, Study, standard_tolerances
 
 Array = NDArray[np.float64]
 Rows = Callable[..., Array]

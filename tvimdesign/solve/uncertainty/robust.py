@@ -26,7 +26,7 @@ from tvimdesign.solve.uncertainty.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
 from tvimdesign.solve.uncertainty.yield_search import MANY_SHAKES, PRESSING, Robust, pressing, reach_yield, tightened
 from tvimdesign.study import ProfileOptions, Requirement, Study
-from tvimdesign.study.study import Robust as RobustOptions
+from tvimdesign.study import Robust as RobustOptions
 
 ROUNDS, _PLAUSIBLE_ROUNDS = 6, 4
 _SETTLED = 1e-3  # Change of a margin, as a share of its limit's scale, below which it is settled

@@ -16,7 +16,7 @@ from tvimdesign.report.run.blocks.warnings import frozen_turn
 from tvimdesign.report.run.uncertainty_data import changes
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.study.resolve import cost_in_words
+from tvimdesign.study import cost_in_words
 
 _GOOD = 0.9973  # Yield from which a module is no concern: three standard deviations to either side
 DAY = 86400.0  # [s]

@@ -16,7 +16,7 @@ from tvimdesign.report.run.reasons import endings
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.remedies import Remedies, Remedy
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.study.design import Design
+from tvimdesign.study import Design
 
 LOOSE = 0.05  # Share of the first swing without contact from which on small motions say little of the joint
 _PLACE = re.compile(r"<(\w+)>")
