@@ -16,9 +16,9 @@ import numpy as np
 import yaml
 
 from tvimdesign.base.units import parse_quantity
-from tvimdesign.report.atlas.atlas_page import ending_limits, figure_data, rows_of
 from tvimdesign.report.figures import theme
 from tvimdesign.report.figures.analysis_figures import atlas
+from tvimdesign.report.sweep.atlas_page import ending_limits, figure_data, rows_of
 from tvimdesign.simulation.working_cycle.device_functions import resolve_study
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.torque_time_map import CYCLE, MASS, TORQUE

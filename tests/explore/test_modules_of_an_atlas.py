@@ -10,7 +10,7 @@ from served_explorer import serving
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.source import open_source
 from tvimdesign.explore.state import tree_of
-from tvimdesign.report.atlas.atlas_page import STUDIES, SUMMARY, rows_of
+from tvimdesign.report.sweep.atlas_page import STUDIES, SUMMARY, rows_of
 from tvimdesign.study import read_study_text, read_tree
 from tvimdesign.sweep.atlas import OUTPUTS, AtlasCell
 

@@ -15,7 +15,7 @@ from tvimdesign.base.units import from_si
 from tvimdesign.explore.source import open_source
 from tvimdesign.explore.state import State, controls_shown, sized_state, tree_of
 from tvimdesign.report.output.command import Command
-from tvimdesign.report.sweep_study import sweep_folder
+from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study import read_study_text, read_tree
 from tvimdesign.study.sizing import JointTask, study_text
 from tvimdesign.study.tree import tree_of_text

@@ -6,7 +6,7 @@ from typing import Any
 from support import sample_text
 
 from tvimdesign.report.output.command import Command
-from tvimdesign.report.sweep_study import sweep_folder
+from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import Executor

@@ -18,7 +18,7 @@ from support import are_gone, wait_until
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.processes import end_process_tree
-from tvimdesign.report.atlas.atlas_page import rows_of
+from tvimdesign.report.sweep.atlas_page import rows_of
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study
 from tvimdesign.study.atlas_studies import Atlas

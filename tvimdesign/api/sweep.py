@@ -17,7 +17,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.run.answered_study import answer_study
-from tvimdesign.report.sweep_study import sweep_folder
+from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study import StudyTree
 from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.plan import Cell as AskedCell

@@ -110,7 +110,7 @@ def sweep(
     json: options.AsJson = False,
 ) -> None:
     """Run every cell of a study's sweep; gather a table. The folder is results/<study>-sweep."""
-    from tvimdesign.report.sweep_study import sweep_study
+    from tvimdesign.report.sweep.sweep_study import sweep_study
     from tvimdesign.sweep.run_sweep import Executor
 
     sweep_study(
@@ -134,7 +134,7 @@ def atlas(
     json: options.AsJson = False,
 ) -> None:
     """Map the lightest modules over torque and time. The folder is results/atlas."""
-    from tvimdesign.report.atlas.atlas_page import make_atlas
+    from tvimdesign.report.sweep.atlas_page import make_atlas
 
     make_atlas(
         plan, out or Path("results/atlas"), kinds=tuple(kinds or ()), workers=workers, overwrite=overwrite,

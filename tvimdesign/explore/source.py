@@ -9,9 +9,9 @@ from typing import Any
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.messages import Way
 from tvimdesign.explore.state import State, beginning, refuse_other_folders, sized_state
-from tvimdesign.report.atlas.atlas_page import STUDIES, SUMMARY, module_points
 from tvimdesign.report.run.front_report import points_shown
-from tvimdesign.report.sweep_figures import shown_cells
+from tvimdesign.report.sweep.atlas_page import STUDIES, SUMMARY, module_points
+from tvimdesign.report.sweep.sweep_figures import shown_cells
 from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.study import Design, Study, StudyTree, read_design, read_tree, tree_of_file, tree_of_values, tree_yaml
 from tvimdesign.study.sections import written

@@ -14,7 +14,7 @@ from small_sweeps import plan
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.page.blocks import Cell, Grid, Head, Page, Section
 from tvimdesign.report.page.page_file import FILE, MOST, page_html
-from tvimdesign.report.sweep_study import sweep_page
+from tvimdesign.report.sweep.sweep_study import sweep_page
 from tvimdesign.sweep.shards import columns
 from tvimdesign.sweep.swept_cells import CellTable
 

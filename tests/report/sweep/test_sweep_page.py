@@ -12,8 +12,8 @@ import pytest
 from tvimdesign.report.figures.analysis_figures import sweep
 from tvimdesign.report.output.command import Command
 from tvimdesign.report.page.page_file import FILE
-from tvimdesign.report.sweep_figures import figure_data
-from tvimdesign.report.sweep_study import sweep_page
+from tvimdesign.report.sweep.sweep_figures import figure_data
+from tvimdesign.report.sweep.sweep_study import sweep_page
 from tvimdesign.study.tree import tree_of_values
 from tvimdesign.sweep import swept_cells as cell_table
 from tvimdesign.sweep.plan import SweepPlan, plan_of

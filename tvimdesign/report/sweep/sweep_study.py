@@ -22,7 +22,7 @@ from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import duration, progress_output, wide_console
 from tvimdesign.report.page.blocks import Cell, Facts, Grid, Head, Page, Section, Tone
 from tvimdesign.report.page.page_file import FILE
-from tvimdesign.report.sweep_figures import figure_data, figures
+from tvimdesign.report.sweep.sweep_figures import figure_data, figures
 from tvimdesign.study import study_file, study_text, tree_of_file
 from tvimdesign.sweep.plan import SweepPlan, plan_of, written
 from tvimdesign.sweep.run_sweep import Executor, SweepDone, run_sweep

@@ -1,0 +1,1 @@
+"""Tables, figures and pages of sweeps, and of the atlas: the lightest modules over torque and time."""
