@@ -285,7 +285,7 @@ def test_the_best_design_with_margins_wins(monkeypatch):
 
 
 def test_designs_beside_are_tried_where_none_is_robust(monkeypatch):
-    """Try two designs that miss the yield, then two beside them with margins, of which the second reaches it."""
+    """Try two designs that miss the yield, then two beside them with margins: the second reaches it."""
     shares = {"first": 0.03, "second": 0.04, "beside": 0.9, "last": 0.96}
     began: dict[str, dict[str, float]] = {}
 
