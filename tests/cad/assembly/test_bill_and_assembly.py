@@ -1,10 +1,12 @@
 """Bill of materials, solids and drafts agree one for one; notes as in notes/ (UPDATE_NOTES=1 rewrites them)."""
 
+import colorsys
 import csv
 import io
 import os
 import re
 from collections import Counter
+from dataclasses import replace
 from math import pi, radians
 from pathlib import Path
 from typing import Any
@@ -13,6 +15,7 @@ import cadquery as cq
 import numpy as np
 import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, WRIST, design_of, given
+from PIL import Image
 from placed_solids import build
 
 from tvimdesign.base.errors import GeometryError
@@ -30,11 +33,14 @@ from tvimdesign.cad.assembly.bill_of_materials import Item, _titled, beside, bil
 from tvimdesign.cad.assembly.draft_module import CHORD, DraftKernel, DraftSolid, draft_module
 from tvimdesign.cad.assembly.heater_leads import NOT_TO_BE_ORDERED
 from tvimdesign.cad.drawing.spring_sheet import spring_lines
+from tvimdesign.cad.export.mesh import Instance, Mesh
 from tvimdesign.cad.geometry.dimensions import dimensions
-from tvimdesign.cad.geometry.kinds import is_of_structure, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, is_of_structure, kind_of
 from tvimdesign.cad.geometry.solids import block, cylinder, drawn_by, join, ring, rounded, slot, spoked_disc
 from tvimdesign.cad.jobs.build_plan import fits
 from tvimdesign.cad.jobs.main import _ordered_by, _titles
+from tvimdesign.cad.render import pictures
+from tvimdesign.cad.render.render import legend_height
 from tvimdesign.catalog.catalog import Catalog
 from tvimdesign.device import table_for
 from tvimdesign.report.run.blocks.warnings import hints
@@ -314,6 +320,34 @@ def test_every_part_comes_into_its_place_before_the_steps_that_open(name):
     texts = [step.text for step in steps]
     power = next(i for i, text in enumerate(texts) if "wiring diagram" in text)
     assert all(i > power for i, text in enumerate(texts) if "two minutes" in text)
+
+
+HUES = np.arange(8) / 8.0
+LEAST_SEEN = 1e-4  # Share of a picture that a kind takes in its own hue: a bead, or the end of a cut-out
+
+
+@pytest.mark.parametrize("name", ["milled", *(pytest.param(n, marks=pytest.mark.slow) for n in ("blocks", "tiles"))])
+def test_the_picture_of_a_step_shows_all_that_it_is_about(name, tmp_path, monkeypatch):
+    draft = draft_module(dimensions(made(name)))
+    meshes = {kind: Mesh(mesh.points, mesh.triangles) for kind, mesh in draft.meshes.items()}
+    placed = {part: Instance(meshes[kind_of(part)], matrix) for part, matrix in draft.places.items()}
+    shown = {f"{i}.png": step.shown(list(placed)) for i, step in enumerate(steps_with(made(name)), 1)}
+    kinds = {file: list(dict.fromkeys(kind_of(part.name) for part in parts)) for file, parts in shown.items()}
+    hues: dict[str, float] = {}  # no two kinds of a picture have the same
+    for kind in meshes:
+        beside = {hues.get(other) for listed in kinds.values() if kind in listed for other in listed}
+        hues[kind] = next(hue for hue in HUES if hue not in beside)
+    colours = {kind: replace(KINDS[kind], colour=colorsys.hsv_to_rgb(hue, 1.0, 0.9)) for kind, hue in hues.items()}
+    monkeypatch.setattr(pictures, "KINDS", colours)
+    pictures.write_steps(tmp_path, placed, shown)
+    for file, listed in kinds.items():
+        picture = Image.open(tmp_path / file)
+        above = round(picture.height * (1.0 - legend_height(listed, picture.size)))
+        image = np.asarray(picture.convert("HSV"))[:above] / 255.0
+        for kind in listed:
+            away = np.abs((image[..., 0] - hues[kind] + 0.5) % 1.0 - 0.5)
+            seen = np.mean((away < 0.04) & (image[..., 1] > 0.25))
+            assert seen > LEAST_SEEN, (file, kind)
 
 
 @pytest.mark.parametrize("friction", [0.15, 0.25, 0.7])

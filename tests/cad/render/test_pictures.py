@@ -10,8 +10,9 @@ from PIL import Image
 from support import cases_of
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from tvimdesign.cad.assembly.assembly_note import PlacedPart
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
-from tvimdesign.cad.render.pictures import _spring_outside, wedge_of
+from tvimdesign.cad.render.pictures import _spring_outside, wedge_of, write_steps
 from tvimdesign.cad.render.render import actors, look, renderer_on_white, write_field_picture, write_png, write_view
 
 GREEN = (0.0, 0.8, 0.2)
@@ -90,6 +91,21 @@ def test_numbers_of_the_bill_stand_beside_parts_and_in_the_legend(tmp_path):
     assert [text.GetPositionCoordinate().GetValue()[0] for text in shown] == [23.0, 3.0]  # the right end of each
     plain, numbered = (matplotlib.image.imread(tmp_path / f"{name}.png") for name in ("plain", "numbered"))
     assert np.any(plain[:50] != numbered[:50])
+
+
+def test_what_a_step_takes_out_again_is_gone_in_those_after_it(tmp_path):
+    placed = {
+        name: Instance(block(), quarter_turn(x)) for name, x in (("housing", 0.0), ("rotor", 9.0), ("link", 30.0))
+    }
+    put = {name: [PlacedPart(name, "above")] for name in placed}
+    steps = {"a": put["housing"], "b": put["link"], "c": put["rotor"], "d": put["link"], "e": [PlacedPart("rotor", "")]}
+    for folder, left_out in (("with", ""), ("without", "bd")):
+        (tmp_path / folder).mkdir()
+        shown = {f"{name}.png": parts for name, parts in steps.items() if name not in left_out}
+        write_steps(tmp_path / folder, placed, shown)
+    c, e = ([(tmp_path / folder / f"{name}.png").read_bytes() for folder in ("with", "without")] for name in "ce")
+    assert c[0] != c[1]
+    assert e[0] == e[1]
 
 
 def test_the_picture_has_both_ends_of_the_scale_on_the_body(tmp_path):

@@ -132,7 +132,7 @@ class PlacedPart(NamedTuple):
 def coming(place: Sequence[Mapping[str, str]], names: Sequence[str]) -> list[PlacedPart]:
     """Return which of some placed parts come into their places in a step, and from which side."""
     return [
-        PlacedPart(name, entry["from"]) for entry in place for name in names if entry["part"] in (name, kind_of(name))
+        PlacedPart(name, at.get("from", "")) for at in place for name in names if at["part"] in (name, kind_of(name))
     ]
 
 
@@ -146,10 +146,11 @@ class WrittenStep(NamedTuple):
     needs: str = ""  # Hands, fixture, tools, access, and what is checked at its end
     tools: Sequence[str] = ()
     opens: bool = False  # True where it takes the module apart again
+    shows: Sequence[Mapping[str, str]] = ()  # What its picture has, where that is neither `place` nor all of `kinds`
 
     def shown(self, names: Sequence[str]) -> list[PlacedPart]:
         """Return what its picture shows: parts that come into their places; else those it is about, from no side."""
-        return coming(self.place, names) or [PlacedPart(name, "") for name in names if kind_of(name) in self.kinds]
+        return coming(self.shows or self.place or [{"part": kind} for kind in self.kinds], names)
 
 
 _TORQUES = re.compile(r"{(\w+_screw_torque)}")
@@ -175,7 +176,7 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
                 *(tool for tool in str(step["needs"]["tools"]).format_map(known).split(", ") if tool != "none"),
                 *(f"torque driver {known[word]} N·m" for word in _TORQUES.findall(step["text"])),
             ],
-            step.get("opens", False),
+            step.get("opens", False), step.get("shows", ()),
         )
         for step in wanted
         if all(known[word] for word in step.get("knows", ()))

@@ -1,6 +1,6 @@
 """Pictures of the module: whole and opened, taken apart, and cut through."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from math import cos, pi, sin
 from pathlib import Path
@@ -19,7 +19,7 @@ from tvimdesign.cad.assembly.assembly_note import PlacedPart
 from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh
 from tvimdesign.cad.export.print_files import body_of, mesh_of
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import KINDS, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.render import render
 
 
@@ -70,17 +70,16 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
     views = []
     below = render.legend_height(kinds, _PREVIEW_SIZE)
     aspect = _PREVIEW_SIZE[1] * (1.0 - below) / (0.5 * _PREVIEW_SIZE[0])
-    whole = {name: _actors(name, instance) for name, instance in placed.items()}
-    cut = {name: _actors(name, opened[name]) if name in _CUT else whole[name] for name in opened}
-    for left, right, shown, drawings in ((0.0, 0.5, placed, whole), (0.5, 1.0, opened, cut)):
-        renderer = render.renderer_on_white()
-        for name in shown:
-            for actor in drawings[name]:
-                renderer.AddActor(actor)
+    for left, shown in ((0.0, placed), (0.5, opened)):
+        renderer = render.renderer_on_white(_all_actors(shown))
         render.look(renderer, shown, _FROM, aspect)
-        renderer.SetViewport(left, below, right, 1.0)
+        renderer.SetViewport(left, below, left + 0.5, 1.0)
         views.append(renderer)
     render.write_png(path, _PREVIEW_SIZE, [*views, render.legend(kinds, _PREVIEW_SIZE)])
+
+
+def _all_actors(placed: Mapping[str, Instance]) -> Iterator[vtkActor]:
+    return (actor for name, instance in placed.items() for actor in _actors(name, instance))
 
 
 def _actors(name: str, instance: Instance) -> tuple[vtkActor, vtkActor]:
@@ -92,61 +91,67 @@ _EXPLODED_SIZE = (1000, 1300)
 
 def write_exploded(path: Path, placed: Mapping[str, Instance], items: Mapping[str, int]) -> None:
     """Write the picture of the parts apart from each other, with their numbers in the bill of materials by kind."""
-    renderer, apart = render.renderer_on_white(), dict[str, Instance]()
-    for name, lift in lifts(placed).items():
-        moved = placed[name].matrix.copy()
-        moved[2, 3] += lift
-        apart[name] = Instance(placed[name].mesh, moved)
-        for actor in render.actors(placed[name].mesh, moved, KINDS[kind_of(name)].colour):
-            renderer.AddActor(actor)
+    apart = {name: _lifted(placed[name], lift) for name, lift in lifts(placed).items()}
+    renderer = render.renderer_on_white(_all_actors(apart))
     render.write_view(path, renderer, apart, VIEWED_FROM, _EXPLODED_SIZE, items=items)
+
+
+def _lifted(instance: Instance, lift: float) -> Instance:
+    matrix = instance.matrix.copy()
+    matrix[2, 3] += lift
+    return Instance(instance.mesh, matrix)
 
 
 _STEP_SIZE = (900, 600)
 _STEP_APART = 0.2  # Way from one kind of part to the next above its place, over the module's width
 _PALE = (0.86, 0.87, 0.88)
 _FROM_BELOW = (VIEWED_FROM[0], VIEWED_FROM[1], -VIEWED_FROM[2])
+_LITTLE, _OPACITY = 0.4, 0.6  # Kinds seen by a smaller share than this shine through what hides them, so strongly
+_GOING_WITH = {
+    "heater_lead": "heater", "adjuster_insert": "adjuster",
+    **dict.fromkeys(("leg_pin", "link_insert", "retainer_insert", "liner"), "rotor"),
+}  # fmt: skip
+"""Kinds that hang on another one, or are in it already, when that is put in."""
 
 
 def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str, Sequence[PlacedPart]]) -> None:
-    """Write a picture for each step, by its file: parts before they go in, in colour, over what is there, pale.
+    """Write a picture for each step, by its file: parts before they go in, or once they are out, in colour, over what
+    is there, pale.
 
-    Parts that a step is about, and moves from no side, are in their places: alone, where none of them stands yet.
+    Parts that a step is about, and moves from no side, are in their places: alone, where none of them stands yet; from
+    above or below, wherever more is seen of each kind. Kinds that are little seen shine through what hides them.
     """
-    standing: dict[str, Instance] = {}
+    apart = _STEP_APART * max(float(np.ptp(instance.points()[:, 0])) for instance in placed.values())
+    standing = set[str]()
     for file, parts in steps.items():
-        renderer = render.renderer_on_white()
-        order = list(dict.fromkeys(_going_with(part.name) for part in parts))
-        apart = _STEP_APART * max(float(np.ptp(instance.points()[:, 0])) for instance in placed.values())
-        coming = {}
+        sides, coming = dict[str, str](), dict[str, Instance]()
         for part in parts:
-            moved = placed[part.name].matrix.copy()
-            lift = apart * (order.index(_going_with(part.name)) + 1.0) if standing and part.side else 0.0
-            moved[2, 3] += -lift if part.side == "below" else lift
-            coming[part.name] = Instance(placed[part.name].mesh, moved)
-        there = standing if any(part.side or part.name in standing for part in parts) else {}
-        there = {name: instance for name, instance in there.items() if name not in coming}
-        for group, pale in ((there, True), (coming, False)):
-            for name, instance in group.items():
-                for actor in render.actors(
-                    instance.mesh, instance.matrix, _PALE if pale else KINDS[kind_of(name)].colour
-                ):
-                    renderer.AddActor(actor)
-        seen = _FROM_BELOW if parts and all(part.side == "below" for part in parts) else VIEWED_FROM
-        render.write_view(folder / file, renderer, there | coming, seen, _STEP_SIZE, coming)
-        standing |= {part.name: placed[part.name] for part in parts if part.side}
-
-
-def _going_with(name: str) -> str:
-    """Return the kind of part that a part is put in with: leads hang on their heater, pressed pins are in the rotor."""
-    return {"heater_lead": "heater", "leg_pin": "rotor", "link_insert": "rotor"}.get(kind_of(name), kind_of(name))
+            group = _GOING_WITH.get(kind_of(part.name), kind_of(part.name))
+            side = sides.setdefault(group, part.side if standing else "")
+            way = {"above": apart, "below": -apart, "": 0.0}[side]
+            coming[part.name] = _lifted(placed[part.name], way * (list(sides).index(group) + 1.0))
+        around = standing - coming.keys() if any(part.side or part.name in standing for part in parts) else ()
+        there = {name: placed[name] for name in placed if name in around}
+        drawn = {name: render.actors(part.mesh, part.matrix, _PALE) for name, part in there.items()}
+        drawn |= {name: _actors(name, instance) for name, instance in coming.items()}
+        groups: dict[str, list[vtkActor]] = {"": [drawn[name][0] for name in there]}
+        for name in coming:
+            groups.setdefault(kind_of(name), []).append(drawn[name][0])
+        cameras = [VIEWED_FROM] * (set(sides.values()) != {"below"}) + [_FROM_BELOW] * ("above" not in sides.values())
+        views = [(render.shares_seen(there | coming, camera, groups, _STEP_SIZE), camera) for camera in cameras]
+        seen, camera = max(views, key=lambda view: sum(view[0].values()))
+        through = list(_all_actors({name: coming[name] for name in coming if seen[kind_of(name)] < _LITTLE}))
+        for actor in through:
+            actor.GetProperty().SetOpacity(_OPACITY)
+        renderer = render.renderer_on_white(actor for both in drawn.values() for actor in both)
+        render.write_view(folder / file, renderer, there | coming, camera, _STEP_SIZE, coming, through=through)
+        standing ^= {part.name for part in parts if part.side}
 
 
 _SECTION_SIZE = (1500, 750)
 _RISE = 0.3  # How far the camera looks down, as a slope
 _BEST_WEDGE = 0.75 * pi
 """Both faces of a wedge that wide are seen nearly square on, and the parts between them are open to the camera."""
-SPRINGS = ("spring_right", "spring_left")
 POLYMER = ("pcl_arc", "pcl_block")
 
 
@@ -160,7 +165,7 @@ def write_section(path: Path, solids: Mapping[str, cq.Solid], placed: Mapping[st
         if kind_of(name) in SPRINGS:
             surface = _spring_outside(instance, first, last)
             shown = render.surface_actors(surface, colour) if surface.GetNumberOfPolys() else ()
-        elif _is_uncut(instance, first, last):
+        elif any((instance.points() @ outward).min() >= 0.0 for outward in _outwards(first, last)):  # it is uncut
             shown = render.actors(instance.mesh, instance.matrix, colour)
         else:
             left = without(name, instance, cutter, solids[name])
@@ -202,12 +207,6 @@ def _wedge(first: float, last: float, placed: Mapping[str, Instance]) -> Cutter:
 def _outwards(first: float, last: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
     """Return the normals of the wedge's faces, out of it."""
     return (sin(first), -cos(first), 0.0), (-sin(last), cos(last), 0.0)
-
-
-def _is_uncut(instance: Instance, first: float, last: float) -> bool:
-    """Return whether a face of the wedge has all of a part before it, so that nothing of it is cut away."""
-    points = instance.points()
-    return any(bool((points @ np.array(outward)).min() >= 0.0) for outward in _outwards(first, last))
 
 
 def _spring_outside(instance: Instance, first: float, last: float) -> vtkPolyData:

@@ -4,14 +4,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, lru_cache
 from importlib import import_module
 from io import BytesIO
-from math import ceil
+from math import ceil, copysign
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from PIL import Image
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkLogger, vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonCore import vtkFloatArray, vtkLogger, vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkPolyDataNormals
@@ -65,6 +65,7 @@ def _window() -> vtkRenderWindow:
     """Return the one that all pictures of a process are drawn in: each new one would compile its shaders again."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
+    window.SetNumberOfLayers(2)  # the second shines through the first
     window.SetMultiSamples(0)  # edges are smoothed once they are drawn (`look`), in a fifth of the time
     return window
 
@@ -172,9 +173,8 @@ def _lines(kinds: Sequence[str], width: int) -> int:
 
 def legend(kinds: Sequence[str], size: tuple[int, int], items: Mapping[str, int] | None = None) -> vtkRenderer:
     """Return a strip below a picture of a size in pixels, with the parts' names, and numbers if given, in colours."""
-    renderer = vtkRenderer()
+    renderer = renderer_on_white()
     renderer.SetViewport(0.0, 0.0, 1.0, legend_height(kinds, size))
-    renderer.SetBackground(1.0, 1.0, 1.0)
     rows = _lines(kinds, size[0])
     columns = ceil(len(kinds) / rows)
     for index, kind in enumerate(kinds):
@@ -189,10 +189,12 @@ Triple = tuple[float, float, float]
 _MARGIN = 1.06  # Picture over what is on it
 
 
-def renderer_on_white() -> vtkRenderer:
-    """Return an empty picture."""
+def renderer_on_white(shown: Iterable[vtkActor] = ()) -> vtkRenderer:
+    """Return a picture of faces and edges."""
     renderer = vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
+    for actor in shown:
+        renderer.AddActor(actor)
     return renderer
 
 
@@ -201,11 +203,12 @@ _LABEL_ROOM = 0.03  # Least distance of two numbers in a picture, over the heigh
 
 def write_view(
     path: Path, renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, size: tuple[int, int],
-    named: Iterable[str] = (), items: Mapping[str, int] | None = None,
+    named: Iterable[str] = (), items: Mapping[str, int] | None = None, through: Sequence[vtkActor] = (),
 ) -> None:  # fmt: skip
     """Write what is seen of placed parts from a direction, with the legend of their kinds, or of those `named`.
 
-    Numbers of `items`, by kind, stand beside the parts, to the right of all of a kind.
+    Numbers of `items`, by kind, stand beside the parts, to the right of all of a kind. What is in `through` shines
+    through all the others.
     """
     kinds = list(items or dict.fromkeys(kind_of(name) for name in named or placed))
     below = legend_height(kinds, size)
@@ -217,18 +220,45 @@ def write_view(
     for kind, number in (items or {}).items():
         points = np.vstack([instance.points() for name, instance in placed.items() if kind_of(name) == kind])
         at = points[np.argmax(points @ right)]
-        while any(
-            np.linalg.norm(np.cross(at - other, from_here)) < room * np.linalg.norm(from_here) for other in taken
-        ):
+        while any(np.linalg.norm(np.cross(at - other, sight)) < room for other in taken):
             at = at - 0.5 * room * upward
         taken.append(at)
         beside = _text(f" {number}", 0, 0, None)
         beside.GetPositionCoordinate().SetCoordinateSystemToWorld()
         beside.GetPositionCoordinate().SetValue(*at)
         renderer.AddViewProp(beside)
-    renderer.SetViewport(0.0, below, 1.0, 1.0)
-    look(renderer, placed, from_here, size[1] * (1.0 - below) / size[0])
-    write_png(path, size, [renderer, legend(kinds, size, items)])
+    layers = [renderer, renderer_on_white(through)] if through else [renderer]
+    for layer, drawn in enumerate(layers):
+        drawn.SetLayer(layer)
+        drawn.SetViewport(0.0, below, 1.0, 1.0)
+        look(drawn, placed, from_here, size[1] * (1.0 - below) / size[0])
+    write_png(path, size, [*layers, legend(kinds, size, items)])
+
+
+_COUNTED = 3  # Times that the picture in which points are counted is smaller
+
+
+def shares_seen(
+    placed: Mapping[str, Instance], from_here: Triple, groups: Mapping[str, Sequence[vtkActor]], size: tuple[int, int]
+) -> dict[str, float]:
+    """Return which share of each group's faces is seen from a direction, of what is seen of it alone, but for ""."""
+    window, (width, height), buffer = _window(), (side // _COUNTED for side in size), vtkFloatArray()
+    renderer = renderer_on_white(actor for group in groups.values() for actor in group)
+    look(renderer, placed, from_here, height / width)
+    renderer.UseFXAAOff()
+    window.SetSize(width, height)
+    window.AddRenderer(renderer)
+    depths = dict[str, Array]()
+    for shown in (*filter(None, groups), ""):  # all of them last
+        for group, actors in groups.items():
+            for actor in actors:
+                actor.SetVisibility(shown in (group, ""))
+        window.Render()
+        window.GetZbufferData(0, 0, width - 1, height - 1, buffer)
+        depths[shown] = np.array(vtk_to_numpy(buffer))
+    window.RemoveRenderer(renderer)
+    whole = depths.pop("")
+    return {group: np.sum((at < 1.0) & (at == whole)) / max(np.sum(at < 1.0), 1) for group, at in depths.items()}
 
 
 def look(renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, aspect: float) -> None:
@@ -243,18 +273,14 @@ def look(renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Tripl
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(*middle)
-    camera.SetPosition(*(middle + towards))
+    camera.SetPosition(*(middle + 4.0 * float(np.abs(points).max()) * towards))  # from outside all of them
     camera.SetViewUp(0.0, 0.0, 1.0)
-    renderer.ResetCamera()
-    offset = middle - np.array(camera.GetFocalPoint())  # ResetCamera looks at the middle of a box around all
-    camera.SetFocalPoint(*middle)
-    camera.SetPosition(*(np.array(camera.GetPosition()) + offset))
     camera.SetParallelScale(0.5 * _MARGIN * max(float(np.ptp(along)), float(np.ptp(across)) * aspect))
     renderer.UseFXAAOn()
-    for position, intensity in (((-0.6, 0.9, 1.0), 0.8), ((0.9, 0.1, 0.8), 0.45)):
+    for (x, y, z), intensity in (((-0.6, 0.9, 1.0), 0.8), ((0.9, 0.1, 0.8), 0.45)):
         light = vtkLight()
         light.SetLightTypeToCameraLight()
-        light.SetPosition(*position)
+        light.SetPosition(x, copysign(y, towards[2]), z)  # who looks up has lamps below
         light.SetIntensity(intensity)
         renderer.AddLight(light)
     renderer.ResetCameraClippingRange()
@@ -285,8 +311,7 @@ def write_field_picture(path: Path, points: Array, triangles: Any, values: Array
     surface = vtkActor()
     surface.SetMapper(mapper)
     surface.GetProperty().SetAmbient(0.35)
-    renderer = renderer_on_white()
-    renderer.AddActor(surface)
+    renderer = renderer_on_white([surface])
     renderer.SetViewport(0.0, 0.0, _BODY, 1.0)
     look(renderer, {"": Instance(mesh, np.eye(4))}, _FROM, _SIZE[1] / (_BODY * _SIZE[0]))
     beside = renderer_on_white()
