@@ -284,8 +284,16 @@ def test_steps_that_open_bring_no_part_and_each_says_who_holds_what():
         needs = step["needs"]
         assert needs["hands"] in (1, 2), step["text"]
         assert all(needs[name] for name in ("fixture", "tools", "access", "checked")), step["text"]
-        gauges = [tool for tool in ("micrometer", "calliper", "gauge") if tool in needs["checked"]]
-        assert all(tool in needs["tools"] for tool in gauges), step["text"]
+        used = [tool for tool in ("micrometer", "calliper", "gauge") if tool in needs["checked"]]
+        worked = {
+            "grit 180": "grit 180",
+            "degrease ": "solvent",
+            "Degrease": "solvent",
+            "feeler": "feeler gauge",
+            "fine paper": "fine paper",
+        }
+        used += [tool for word, tool in worked.items() if word in step["text"]]
+        assert all(tool in needs["tools"] for tool in used), step["text"]
         # Whoever holds a part with a screwdriver while another tool turns its screw is not alone.
         if "to hold the adjuster" in step["text"]:
             assert needs["hands"] == 2
@@ -317,6 +325,9 @@ def test_every_part_comes_into_its_place_before_the_steps_that_open(name):
     opening = [step.opens for step in steps]
     assert opening == sorted(opening)
     assert any(opening)
+    tightened = [step for step in steps if re.search(r"key [\d.]+, [\d.]+ N·m", step.text)]
+    assert tightened
+    assert all("torque driver" in step.needs for step in tightened)
     texts = [step.text for step in steps]
     power = next(i for i, text in enumerate(texts) if "wiring diagram" in text)
     assert all(i > power for i, text in enumerate(texts) if "two minutes" in text)

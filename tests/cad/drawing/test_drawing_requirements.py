@@ -10,7 +10,7 @@ from dataclasses import replace
 import ezdxf
 import pytest
 import yaml
-from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, design_of
+from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, TILES, VANE_TILES, design_of
 from ezdxf.tools.text_size import text_size
 from support import ROOT, cases_of
 from test_drawings import no_text_lies_on_another, sheet_of, texts
@@ -92,6 +92,25 @@ def test_seats_and_threads_have_fits_where_milled():
     words = [entry["about"] for part in ("seats", "threads") for group in reported[part].values() for entry in group]
     assert max(map(len, words)) <= 21  # what the table has room for
     assert {*reported["seats"], *reported["threads"]} <= {kind for kind, making in PRODUCTION.items() if making.drawn}
+
+
+@pytest.mark.parametrize("process", ["print_pc_bambu", "machine_6061"])
+def test_a_spreader_s_pocket_leaves_gaps_that_slip_and_that_are_filled(process):
+    design = design_of("tiles", {**TILES, "process": process}, "shear")
+    dims = dimensions(design)
+    sheets = {kind: drawing_requirements(kind, dims, design.choices) for kind in ("housing", "spreader")}
+    note = next(note for note in sheets["housing"].notes if "pockets" in note)
+    sides = [float(radius) for radius in re.findall(r"R([\d.]+)", note)]
+    gaps = [
+        *(dims.pcl_inner_radius - side for side in sides[1::-1]),
+        *(side - dims.pcl_outer_radius for side in sides[2:]),
+    ]
+    assert min(gaps) == pytest.approx(dims.slip_clearance, abs=0.01)
+    smaller = float(re.search(r"\+0 / −([\d.]+)", sheets["spreader"].tolerances)[1])
+    assert max(gaps) + smaller == pytest.approx(dims.heater_adhesive_gap_fill, abs=0.01)
+    assert ("sanding" in str(sheets["housing"].notes)) == (process == "print_pc_bambu")
+    block = design_of("in vanes", VANE_TILES, "compression")
+    assert "pockets" not in str(drawing_requirements("housing", dimensions(block), block.choices).notes)
 
 
 SIZED = {"process": "print_pc_bambu", "preload_adjuster": "rotary", "cover": "plate", "radial_clearance": 1.7e-3}

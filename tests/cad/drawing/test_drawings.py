@@ -91,6 +91,9 @@ def test_drawings_dimension_call_out_and_title_the_design(module, drawings):
     radius = 2e3 * design.values["placement_radius"]
     figure = f"{radius:.2f}".rstrip("0").rstrip(".")
     assert f"4× hole ⌀3.4, on ⌀{figure} every 90° from 45°, h 0 to 10 (10)" in texts(drawings["housing"])
+    plate = f"{mm['rotor_top_level'] + mm['floor_thickness'] + mm['running_clearance']:.2f}".rstrip("0").rstrip(".")
+    # A pin is counted from the plate on, and not from the end of the fillet at its foot.
+    assert any("× boss ⌀" in text and f", h {plate} to " in text for text in texts(drawings["rotor"]))
     assert any(
         text.startswith("4× boss ⌀") and f", on ⌀{figure} every 90° from 0°, h 10 to" in text
         for text in texts(drawings["housing"])

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.record import own_data
 from tvimdesign.cad import cad_report
-from tvimdesign.cad.assembly.bill_of_materials import DIVIDER, MADE_TO_ORDER, Item, cost, driver_inputs, greased
+from tvimdesign.cad.assembly.bill_of_materials import DIVIDER, MADE_TO_ORDER, WIRED, Item, cost, driver_inputs, greased
 from tvimdesign.cad.assembly.heater_leads import set_points_in_words
 from tvimdesign.cad.export.print_files import LINE, walls
 from tvimdesign.cad.geometry.dimensions import Dimensions
@@ -171,12 +171,9 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     steps = [
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
-            step["kinds"], step.get("place", ()), _needs(step["needs"]).format_map(known),
-            [
-                *(tool for tool in str(step["needs"]["tools"]).format_map(known).split(", ") if tool != "none"),
-                *(f"torque driver {known[word]} N·m" for word in _TORQUES.findall(step["text"])),
-            ],
-            step.get("opens", False), step.get("shows", ()),
+            step["kinds"], step.get("place", ()), _needs(step["needs"], tools := _tools(step)).format_map(known),
+            [tool for tool in tools.format_map(known).split(", ") if tool != "none"], step.get("opens", False),
+            step.get("shows", ()),
         )
         for step in wanted
         if all(known[word] for word in step.get("knows", ()))
@@ -200,11 +197,17 @@ def _unless_fitting(kinds: Sequence[str], items: Sequence[Item]) -> str:
     return f"No listed {missing} fits: leave this step until one is found, {how}. " if missing else ""
 
 
-def _needs(needs: Mapping[str, Any]) -> str:
+def _tools(step: Mapping[str, Any]) -> str:
+    """Return the tools of a step, with a driver for each torque that its text asks for."""
+    drivers = (f"torque driver {{{word}}} N·m" for word in dict.fromkeys(_TORQUES.findall(step["text"])))
+    return ", ".join([step["needs"]["tools"], *drivers])
+
+
+def _needs(needs: Mapping[str, Any], tools: str) -> str:
     """Return what a step takes, in a line."""
     people = "one person" if needs["hands"] == 1 else f"{needs['hands']} persons, or a clamp"
     return (
-        f"{people} · held by: {needs['fixture']} · tools: {needs['tools']} · access: {needs['access']} · "
+        f"{people} · held by: {needs['fixture']} · tools: {tools} · access: {needs['access']} · "
         f"checked: {needs['checked']}"
     )
 
@@ -372,6 +375,15 @@ def _housing_on_bed(_: Design, dims: Dimensions) -> str:
     return f"{lies} on the bed: posts, hub and seats grow upwards and come out round; {support}"
 
 
+def _pins_on_bed(_: Design, dims: Dimensions) -> str:
+    """Return what else of a rotor hangs over the bed: its pins, or the bosses of bought ones."""
+    if dims.leg_pins_fitted:
+        return ", under the bosses of the dowel pins, too, which are trimmed flat before their holes are reamed"
+    sides = "the legs bear on their sides, which no support touches, so that only ends and fillets are trimmed"
+    free = f", under the pins, too, whose ends hang free whichever way the rotor lies; {sides}"
+    return free if dims.spring_count else ""
+
+
 _AND_BASE = ", screws through floor and base both, tightened again after the first heating"
 _TO_REAM = 0.2  # What a drill leaves to a reamer up to 5 mm [mm]; workshop tables have 0.1 to 0.2
 _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
@@ -396,6 +408,8 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "cutout_place": _cutout_place,
     "and_base": lambda _, dims: _AND_BASE if dims.base_height else "",
     "housing_on_bed": _housing_on_bed,
+    "pins_on_bed": _pins_on_bed,
+    "heaters_wired": lambda design, _: WIRED[design.choices.get("heater_wiring", "series")],
     "heated_parts": lambda _, dims: "spreaders" if dims.spreader_depth else "heaters",
     "hot_side": lambda design, _: ", hot side to the PCL" if design.values.get("heater_seebeck") else "",
     "ledge_pull": _ledge_pull,

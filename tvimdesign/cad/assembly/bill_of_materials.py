@@ -33,7 +33,7 @@ _DRY, _DRY_METAL = 0.2, 0.6
 _EFFICIENCY = 0.9  # Power out of a step-down driver over power into it, assumed
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
 """Rows of the switch that a supply is bought by: volts, amperes."""
-_WIRED = {
+WIRED = {
     "series": "all heaters in series",
     "arcs_parallel": "arcs in parallel, the heaters of each in series",
     "vanes_parallel": "vanes in parallel, the heaters of each in series",
@@ -267,6 +267,7 @@ def _glues(design: Design) -> list[Item]:
         items.append(Item("thread_locker", 1, False, "", text, 0.0, ()))
     elif design.choices["thread_insert"] != "none":
         text = f"Nylon patch for {bears} on the threads of all screws in inserts: compounds would crack plastics"
+        text += "; for one module order the screws with a patch on"
         items.append(Item("thread_patch", 1, False, "", text, 0.0, ()))
     if design.values.get("drive_height", 0.0) > 0.0:
         text = f"Structural adhesive for {bears}, for the motor's rotor, stator and magnet"
@@ -314,6 +315,11 @@ def _under_pads(design: Design, titles: Mapping[str, str]) -> list[Item]:
             gap, deep = 1e3 * design.value("spreader_gap"), 1e3 * design.value("spreader_depth")
             where = f"along both rims of each spreader, {gap:.2g} mm wide and {deep:.2g} mm deep"
             items.append(_adhesive(design, titles, where))
+            tape = f"PTFE sealing tape for {rating(design)}, twisted into cords below the spreaders' rims"
+            film = f"{1e3 * design.value('slip_clearance'):.2g} mm thick, 3 mm wide, beside the spreaders"
+            strip, count = f"Strip of PTFE film for {rating(design)}, {film}", 8 * round(design.value("arc_count"))
+            items += [Item("sealing_tape", 1, False, "", tape, 0.0, ())]
+            items += [Item("spacer_strip", count, False, "", strip, 0.0, ())]
         elif design.choices.get("heater_form", "flexible") != "flexible":
             items.append(_adhesive(design, titles, "below the lower edge of each spreader"))
         return items
@@ -370,7 +376,7 @@ def _supply(design: Design) -> list[Item]:
     if not volts or not amperes:
         return []
     ways = "both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else "one way round"
-    wired = _WIRED[design.choices.get("heater_wiring", "series")]
+    wired = WIRED[design.choices.get("heater_wiring", "series")]
     asks = bears = (volts, amperes)
     least = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
     ways += f", its limit set to {amperes:.3g} A"

@@ -143,6 +143,7 @@ class DrawingRequirements:
     general: tuple[Frame, ...] = ()  # Tolerance of every face without one of its own: ISO 22081
     placed: bool = True
     """Whether places from the joint's axis are given: not of what is bought, and put where the assembly's note says."""
+    foot_fillet: float = 0.0  # Of its bosses, which begin below it [mm]
 
     def clearance_hole(self, hole: Cylinder) -> ClearanceHole | None:
         """Return the row of a hole for a screw; None if it is for none."""
@@ -203,6 +204,7 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         clearance_holes=[_clearance_hole(hole, dims, is_milled) for hole in holes],
         general=(Frame("profile", general["profile"], GROUND + DATUM),) if is_milled else (),
         placed=general.get("placed", True),
+        foot_fillet=dims.foot_fillet if kind == "rotor" else 0.0,
     )
 
 
@@ -239,7 +241,7 @@ def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[st
     sizes = _remarked_sizes(dims) if written else {}
     return [
         remark["text"].format_map(sizes) for remark in written
-        if _is_there(remark, dims)
+        if remark.get("mode", dims.mode) == dims.mode and _is_there(remark, dims)
         and all(choices.get(name) == word for name, word in remark.get("choices", {}).items())
     ]  # fmt: skip
 
@@ -254,7 +256,14 @@ def _remarked_sizes(dims: Dimensions) -> dict[str, str]:
         sizes["tang_hole"] = dims.wire_diameter + 2.0 * dims.tang_clearance
         sizes["leg_radius"] = dims.stop_contact_radius
         sizes["leg_width"] = dims.stop_contact_radius * dims.stop_angle - dims.slip_clearance
-    return {name: figure(size) for name, size in sizes.items()} | {"off": f"{0.5 * dims.slip_clearance:.2g}"}
+    words = {"off": f"{0.5 * dims.slip_clearance:.2g}"}
+    if dims.mode == "shear" and dims.spreader_depth:
+        sizes["fill"] = dims.heater_adhesive_gap_fill
+        near, far = dims.slip_clearance, sizes["fill"] - requirements_data()["of_kind"]["spreader"]["less"]
+        inner, outer = dims.pcl_inner_radius, dims.pcl_outer_radius
+        for side, ends in (("inner", (inner - far, inner - near)), ("outer", (outer + near, outer + far))):
+            words[side] = " to ".join(f"R{figure(end)}" for end in ends)
+    return {name: figure(size) for name, size in sizes.items()} | words
 
 
 def _is_there(reported: Mapping[str, Any], dims: Dimensions) -> bool:

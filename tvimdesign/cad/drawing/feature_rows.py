@@ -118,10 +118,11 @@ def _hole_row_for(requirements: DrawingRequirements) -> Callable[[list[Cylinder]
         size = thread.designation if thread else sized(hole, requirements)
         place = "on the axis" if hole.is_central else _circle(_centres(group))
         what = ("thread" if thread else "hole") if hole.concave else "boss"
+        bottom = hole.bottom - (0.0 if hole.concave else requirements.foot_fillet)
         points = tuple(
             (other.x + other.radius * cos(0.25 * pi), other.y + other.radius * sin(0.25 * pi)) for other in group
         )
-        return FeatureRow(what, size, place, hole.bottom, hole.top, about, tuple(frames), points, of=tuple(group),
+        return FeatureRow(what, size, place, bottom, hole.top, about, tuple(frames), points, of=tuple(group),
                           azimuths=() if hole.is_central else tuple(_directions(_centres(group))))  # fmt: skip
 
     return hole_row
