@@ -11,6 +11,7 @@ from placed_solids import placed_solids
 from sample_solids import box, one_solid
 
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
+from tvimdesign.cad.assembly.bill_of_materials import beside
 from tvimdesign.cad.export.mesh import Array, Instance, solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.solids import turned
@@ -85,6 +86,25 @@ def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported():
     aside = solids["heater_lead_1"].moved(cq.Location(cq.Vector(0.0, 0.0, 2.0)))
     moved = {check.part: check for check in bought_checks({**solids, "heater_lead_1": aside})}
     assert not moved["heater_lead"].ok
+
+
+@pytest.mark.parametrize(("changes", "mode"), [({}, "shear"), (TILES, "shear"), ({}, "compression")])
+def test_the_gap_pad_of_the_bill_reaches_from_the_heater_to_the_cut_out(changes, mode):
+    design = design_of("fused", changes, mode)
+    filled = ["pcl_block"] if mode == "compression" else ["pcl_arc", *(["spreader"] if changes else [])]
+    solids = placed_solids(dimensions(design), ("housing", "heater", "thermal_cutout", *filled))
+    cutout = solids["thermal_cutout"].BoundingBox()
+    # A strip as wide as the body, from there up to the first heater above it.
+    strip = cq.Workplane("XY").box(cutout.xlen, cutout.ylen, 20.0, centered=(True, True, False)).val()
+    strip = strip.moved(cq.Location(cq.Vector(*cutout.center.toTuple()[:2], cutout.zmax)))
+    above = [
+        met.BoundingBox().zmin
+        for name, solid in solids.items()
+        if name.startswith("heater_") and (met := strip.intersect(solid)).Volume() > 0.0
+    ]
+    (title,) = (item.title for item in beside(design, {}) if item.kind == "gap_pad")
+    thickness = float(title.split(" mm thick")[0].split()[-1])
+    assert 0.0 <= thickness - (min(above) - cutout.zmax) < 0.5
 
 
 def cylinder(radius: float, height: float = 10.0) -> cq.Solid:

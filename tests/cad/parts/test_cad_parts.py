@@ -457,7 +457,8 @@ def test_screws_alone_and_loose_tangs_have_none_of_it():
     design = design_of("loose", {"link_fit": "clearance", "tang_hold": "hole"})
     dims = dimensions(design)
     assert "link_dowel" not in drawn_parts(dims)
-    kinds = ["polymer", "heater_adhesive", "thermistor", "polyimide_film", "wire_sleeve", "thread_patch", "mount_screw"]
+    kinds = ["polymer", "heater_adhesive", "thermistor", "polyimide_film", "gap_pad"]
+    kinds += ["wire_sleeve", "thread_patch", "mount_screw"]
     assert [item.kind for item in beside(design, {})] == kinds
     assert drawing_requirements("link", dims, design.choices).seats == []
     assert broken_rules(design_of("fitted", {})) == []

@@ -15,7 +15,6 @@ from tvimdesign.cad.export.print_files import LINE, walls
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
 from tvimdesign.cad.parts.common_parts import link_screws
-from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.catalog.offers import between
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study import Design, cost_in_words
@@ -45,6 +44,8 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     lines += [*_making(design, dims, [item for item in items if item.made]), "## Steps", ""]
     steps = written_steps(design, dims, items)
     tools = sorted({tool for step in steps for tool in step.tools})
+    hours = sum(step.minutes for step in steps if not step.opens) / 60.0
+    lines += [f"About {hours:.2g} h by hand, assumed, twice that the first time; ovens, glue and PCL take their own."]
     lines += [f"Tools: {', '.join(tools)}. Azimuths count from the drawings' x axis, counter-clockwise from above.", ""]
     for number, step in enumerate(steps, start=1):
         if step.opens and not steps[number - 2].opens:
@@ -145,6 +146,7 @@ class WrittenStep(NamedTuple):
     """What comes into its place: `part`, a kind or one part of a kind, and the side it comes `from`."""
     needs: str = ""  # Hands, fixture, tools, access, and what is checked at its end
     tools: Sequence[str] = ()
+    minutes: float = 0.0  # By hand, assumed
     opens: bool = False  # True where it takes the module apart again
     shows: Sequence[Mapping[str, str]] = ()  # What its picture has, where that is neither `place` nor all of `kinds`
 
@@ -172,7 +174,8 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
         WrittenStep(
             _unless_fitting(step["kinds"], items) + str(step["text"]).format_map(known),
             step["kinds"], step.get("place", ()), _needs(step["needs"], tools := _tools(step)).format_map(known),
-            [tool for tool in tools.format_map(known).split(", ") if tool != "none"], step.get("opens", False),
+            [tool for tool in tools.format_map(known).split(", ") if tool != "none"], step["needs"]["minutes"],
+            step.get("opens", False),
             step.get("shows", ()),
         )
         for step in wanted
@@ -207,8 +210,8 @@ def _needs(needs: Mapping[str, Any], tools: str) -> str:
     """Return what a step takes, in a line."""
     people = "one person" if needs["hands"] == 1 else f"{needs['hands']} persons, or a clamp"
     return (
-        f"{people} · held by: {needs['fixture']} · tools: {tools} · access: {needs['access']} · "
-        f"checked: {needs['checked']}"
+        f"{people}, {needs['minutes']} min · held by: {needs['fixture']} · tools: {tools} · "
+        f"access: {needs['access']} · checked: {needs['checked']}"
     )
 
 
@@ -328,11 +331,6 @@ def _bonding_heat(design: Design, _: Dimensions) -> str:
     return f"heat with {by} for {time:.3g} s, then hold {hold:.3g} A for two minutes"
 
 
-def _cutout_place(_: Design, dims: Dimensions) -> str:
-    """Return where the cut-out is drawn."""
-    return "in the window, to the outer side of the heater" if fits_in_window(dims) else "below the floor"
-
-
 def _ledge_pull(design: Design, _: Dimensions) -> str:
     """Return how strongly the freezing layer pulls at what lies on the ledges.
 
@@ -405,11 +403,11 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "link_dowel_drill": lambda _, dims: f"{dims.link_dowel_diameter - _TO_REAM:.3g}",
     "leg_pin_height": lambda _, dims: f"{dims.leg_pin_length - dims.leg_pin_depth:.3g}",
     "set_points": lambda design, _: set_points_in_words(design),
-    "cutout_place": _cutout_place,
     "and_base": lambda _, dims: _AND_BASE if dims.base_height else "",
     "housing_on_bed": _housing_on_bed,
     "pins_on_bed": _pins_on_bed,
     "heaters_wired": lambda design, _: WIRED[design.choices.get("heater_wiring", "series")],
+    "cutout_place": lambda _, dims: f"through the {'slot of its vane' if dims.mode == 'compression' else 'window'}",
     "heated_parts": lambda _, dims: "spreaders" if dims.spreader_depth else "heaters",
     "hot_side": lambda design, _: ", hot side to the PCL" if design.values.get("heater_seebeck") else "",
     "ledge_pull": _ledge_pull,

@@ -31,6 +31,8 @@ from tvimdesign.study import Design
 _DRY, _DRY_METAL = 0.2, 0.6
 """Friction of plastic, and of milled pins, below which they are greased: sources of `bore_friction`, `pin_friction`."""
 _EFFICIENCY = 0.9  # Power out of a step-down driver over power into it, assumed
+_GAP_PAD = 6.0  # Conductivity asked of a gap pad [W/(m K)], assumed: the cut-out follows its heater to some kelvin
+_ROUNDING = 1e-6
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))
 """Rows of the switch that a supply is bought by: volts, amperes."""
 WIRED = {
@@ -358,7 +360,11 @@ def _of_the_heater(design: Design) -> list[Item]:
         items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
     if design.values.get("cutout_diameter", 0.0) > 0.0:
         film = f"Polyimide film with adhesive for {rating(design)}, to wrap the thermal cut-out and to hold it"
-        items.append(Item("polyimide_film", 1, False, "", film, 0.0, ()))
+        length, width = (1e3 * design.value(name) for name in ("cutout_length", "cutout_diameter"))
+        thick = 0.5 * math.ceil(2e3 * design.value("cutout_gap") - _ROUNDING)
+        size = f"{thick:g} mm thick, {width:.3g} x {length:.3g} mm, at least {_GAP_PAD:g} W/(m·K)"
+        bridge = f"Gap pad of silicone for {rating(design)}, {size}, from the heater to the thermal cut-out"
+        items += [Item(kind, 1, False, "", of, 0.0, ()) for kind, of in (("polyimide_film", film), ("gap_pad", bridge))]
         covers += 2
     sleeves = f"Sleeve of PTFE or glass fibre for {rating(design)}, over each bare wire of thermistors and cut-out"
     items.append(Item("wire_sleeve", covers, False, "", sleeves, 0.0, ()))

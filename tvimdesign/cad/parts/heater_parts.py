@@ -4,7 +4,7 @@ Parts of the shear module are centred on the x axis, as an arc is; those in vane
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from math import sin, sqrt, tan
+from math import sin
 
 import cadquery as cq
 
@@ -214,37 +214,18 @@ def _bead_place(dims: Dimensions) -> tuple[float, float]:
     return dims.pcl_outer_radius + half, -half
 
 
-# --- thermal cut-out: across a window, in there where it has room, else below the floor ---
+# --- thermal cut-out: below the floor, across a window or slot in which a gap pad leads to the heater ---
 
 
 def cutout(dims: Dimensions) -> cq.Shape:
-    """Draw the body and the straight part of its wires, below what is centred on the x axis and across it."""
+    """Draw the body and the straight part of its wires, below the floor that is centred on the x axis and across it."""
     half, leg = 0.5 * dims.cutout_length, 0.5 * dims.cutout_leg_diameter
     reach = half + dims.cutout_leg_straight
     upright = join(
         cylinder(0.5 * dims.cutout_diameter, -half, half), [cylinder(leg, -reach, -half), cylinder(leg, half, reach)]
     )
-    under = -dims.pad_depth if fits_in_window(dims) else -dims.floor_thickness
-    level = under - 0.5 * dims.cutout_diameter
-    if not fits_in_window(dims, dims.cutout_leg_straight + 3.0 * leg):  # wires and their bends: below the floor
-        level = min(level, -dims.floor_thickness - leg - dims.running_clearance)
+    level = -dims.floor_thickness - 0.5 * dims.cutout_diameter
     return upright.moved(cq.Location(cq.Vector(dims.cutout_radius, 0.0, level), cq.Vector(1, 0, 0), -90))
-
-
-def fits_in_window(dims: Dimensions, beside: float = 0.0) -> bool:
-    """Return whether body and a running clearance around it go into the window below the first heater, and `beside`
-    [mm] of its wires at both ends."""
-    if dims.mode == "compression":
-        return False
-    half = 0.5 * dims.cutout_length + dims.running_clearance + beside
-    across = dims.cutout_diameter + 2.0 * dims.running_clearance
-    if dims.spreader_depth:
-        return dims.window_width >= 2.0 * half and dims.window_depth >= across
-    inner, outer = dims.pcl_inner_radius + dims.window_ledge, dims.pcl_outer_radius - dims.window_ledge
-    near = dims.cutout_radius - 0.5 * across
-    end = 0.5 * dims.arc_span - dims.window_ledge / dims.pcl_inner_radius
-    reach = sqrt(max(outer**2 - half**2, 0.0))
-    return near >= inner and reach >= near + across and near * tan(end) >= half + dims.corner_radius
 
 
 def stand_cutout(drawn: Mapping[str, cq.Solid], azimuth: float) -> dict[str, cq.Shape]:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
-from tvimdesign.device.core.heater_form import CUT, WITH_CUTOUT
+from tvimdesign.device.core.heater_form import CUT
 from tvimdesign.device.table import Module, QuantityGroup, Scalar, at_least
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids.shapes import between_planes
@@ -44,12 +44,6 @@ def slot_web(m: Module) -> Scalar:
 def vane_root(m: Module) -> Scalar:
     """Thickness of the rotor's vanes at their inner end, where they are thinnest."""
     return m.rotor_vane_angle * m.pcl_inner_radius
-
-
-@places.output("mm", requires=WITH_CUTOUT)
-def cutout_radius(m: Module) -> Scalar:
-    """Distance of the thermal cut-out's middle from the axis: below the middle of the slots; zero without."""
-    return 0.5 * (m.slot_inner_radius + m.slot_outer_radius)
 
 
 @places.output("mm", hidden=True)
