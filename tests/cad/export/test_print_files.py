@@ -227,7 +227,7 @@ def test_its_overhangs_are_those_that_the_print_text_tells(mode, changes):
     assert warned(levels[1:])
     assert warned(((dims.rotor_top_level, dims.rotor_top_level), levels[1]))
     why = PRODUCTION["rotor"].why
-    assert "under the pins" in why
+    assert "{pins_on_bed}" in why
     assert "supports from the bed" in why
 
 

@@ -211,4 +211,4 @@ def test_a_single_thermocouple_leaves_six_values_open_and_the_fit_says_so(tmp_pa
 def test_a_lack_is_reported(tmp_path, columns, given, message):
     path = csv(tmp_path / "l.csv", **{"time__s": range(4), "current__A": [1.0] * 4, **columns})
     with pytest.raises(InputError, match=message):
-        fit_files(path, "heating_log", **given)
+        fit_files(path, "heating_log", **{of: value for of, value in {"study": str(STUDY), **given}.items() if value})
