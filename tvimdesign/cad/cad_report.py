@@ -107,6 +107,7 @@ def finding(
     )  # fmt: skip
 
 
+ASSEMBLY = "assembly"  # Name of the drawing of the whole module, among those of the parts
 ASSEMBLY_STEP = "assembly.step"
 ASSEMBLY_GLB = "assembly.glb"
 ASSEMBLY_DATA = "assembly.json"

@@ -173,6 +173,11 @@ class DrawingSheet:
             entity.dxf.width = room / length
         entity.set_placement(self.at(at), align=TextEntityAlignment[align])
 
+    def cut_short(self, text: str, room: float, height: float = _TEXT) -> str:
+        """Return as many words of a text as a line has room for [mm], and a mark where that is not all of it."""
+        first, *more = _within(text, room - height, fonts.make_font(_FONT, height).text_width)
+        return f"{first.rstrip(',;:')} …" if more else first
+
     def column(self, lines: Sequence[str], at: Point, pitch: float = 4.6, height: float = _TEXT) -> None:
         """Write texts below one another, the first below a place on paper, each within the width of the title block."""
         width = fonts.make_font(_FONT, height).text_width

@@ -87,7 +87,7 @@ def _draw_plan(
     threaded = [face for face in cylinders if face.is_round and requirements.thread(face)]
     plan.threads([(face.x, face.y, _screw(face, requirements)) for face in threaded])
     left, right = plan.view.bounds[:2]
-    marks = [plan.cutting_mark("A", 0.0, right), plan.cutting_mark("A", radians(180.0), -left)]
+    marks = [plan.cutting_mark("A", 0.0, right), plan.cutting_mark("A", radians(180.0), -left, on_left=True)]
     return [*marks, plan.cutting_mark("D", beside, half.bounds[1], marks)] if half else marks
 
 

@@ -9,6 +9,7 @@ from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.drawing.projection import Arc, Chain, View
 from tvimdesign.cad.geometry.features import Cylinder
 
+_ANSI31 = 3.175  # Distance of the lines of that pattern [mm]
 _CLEAR = 4.5  # Least distance of the letters and strokes of two sections [mm]: letters are 3.5 high
 
 
@@ -54,21 +55,25 @@ class PlacedView:
 
     def draw(self) -> None:
         """Draw outlines and hatching."""
-        space = self.sheet.space
         for behind in self.view.hidden:
-            self._curve(behind, "HIDDEN")
+            self.curve(behind, "HIDDEN")
         for arc in self.view.arcs:
-            self._curve(arc, "OUTLINE")
+            self.curve(arc, "OUTLINE")
         for chain in self.view.chains:
-            self._curve(chain, "OUTLINE")
+            self.curve(chain, "OUTLINE")
         for outlines in self.view.cut:
-            hatch = space.add_hatch(dxfattribs={"layer": "HATCH"})
-            hatch.set_pattern_fill("ANSI31", scale=0.8 / self.sheet.scale)
-            for index, outline in enumerate(outlines):
-                points = [self.at(*point) for point in outline.points]
-                hatch.paths.add_polyline_path(points, is_closed=True, flags=1 if index == 0 else 16)
+            self.hatch(outlines)
 
-    def _curve(self, curve: Arc | Chain, layer: str) -> None:
+    def hatch(self, outlines: Sequence[Chain], turned: float = 0.0, spacing: float = 2.54) -> None:
+        """Hatch a cut face within its outline, outside its holes: lines at 45° and more [deg], so far apart [mm]."""
+        hatch = self.sheet.space.add_hatch(dxfattribs={"layer": "HATCH"})
+        hatch.set_pattern_fill("ANSI31", scale=spacing / _ANSI31 / self.sheet.scale, angle=turned)
+        for index, outline in enumerate(outlines):
+            points = [self.at(*point) for point in outline.points]
+            hatch.paths.add_polyline_path(points, is_closed=True, flags=1 if index == 0 else 16)
+
+    def curve(self, curve: Arc | Chain, layer: str) -> None:
+        """Draw an arc or a chain of the view."""
         space, of = self.sheet.space, {"layer": layer}
         if isinstance(curve, Chain):
             # Bit 128: dashes run on through the corners.
@@ -120,16 +125,16 @@ class PlacedView:
             self.line((x, y - arm), (x, y + arm))
 
     def cutting_mark(
-        self, letter: str, azimuth: float, reach: float, others: Sequence[CuttingMark] = ()
+        self, letter: str, azimuth: float, reach: float, others: Sequence[CuttingMark] = (), *, on_left: bool = False
     ) -> CuttingMark:
         """Mark where a section is taken, `reach` from the axis at an azimuth [rad]: an arrow as it is looked at.
 
-        Further out, where it would lie on one of the others.
+        Further out, where it would lie on one of the others; `on_left` if the section has that half left of the axis.
         """
-        mark = self._mark_at(azimuth, reach)
+        mark = self._mark_at(azimuth, reach, on_left)
         while any(mark.lies_on(other) for other in others):
             reach += self.paper(1.0)
-            mark = self._mark_at(azimuth, reach)
+            mark = self._mark_at(azimuth, reach, on_left)
         inner, corner, tip = (self.sheet.at(point) for point in mark.corners)
         self.sheet.space.add_line(inner, corner, dxfattribs={"layer": "OUTLINE"})
         self.sheet.space.add_line(corner, tip, dxfattribs={"layer": "FINE"})
@@ -137,10 +142,9 @@ class PlacedView:
         self.sheet.text(letter, mark.letter, 3.5, "MIDDLE_CENTER")
         return mark
 
-    def _mark_at(self, azimuth: float, reach: float) -> CuttingMark:
-        out, beside = (cos(azimuth), sin(azimuth)), (-sin(azimuth), cos(azimuth))
-        if cos(azimuth) < -0.5:  # the far end of a section across the axis is looked at the same way
-            beside = (sin(azimuth), -cos(azimuth))
+    def _mark_at(self, azimuth: float, reach: float, on_left: bool) -> CuttingMark:
+        out, way = (cos(azimuth), sin(azimuth)), -1.0 if on_left else 1.0
+        beside = (-way * sin(azimuth), way * cos(azimuth))
 
         def at(along: float, aside: float) -> tuple[float, float]:
             far = reach + self.paper(along)

@@ -90,6 +90,11 @@ def from_below(solid: cq.Solid) -> View:
     return View(*_curves(_edges(solid, (0, 0, -1))[0]))
 
 
+def seen_lines(shape: cq.Shape, towards_viewer: tuple[float, float, float]) -> tuple[Chain, ...]:
+    """Return what is seen of one or more solids from a direction, arcs as chains, too; the viewer's right is x."""
+    return tuple(sorted({_chain(edge) for edge in _edges(shape, towards_viewer)[0]}))
+
+
 def section(solid: cq.Solid) -> View:
     """Return front view of the half behind the plane y = 0, with its faces in that plane."""
     size = _room(solid)
@@ -133,7 +138,7 @@ def _lies_in_section(face: cq.Face) -> bool:
     return bool(max(abs(box.ymin), abs(box.ymax)) < 1e-6)
 
 
-def _edges(solid: cq.Solid, towards_viewer: tuple[float, float, float]) -> tuple[list[cq.Edge], list[cq.Edge]]:
+def _edges(solid: cq.Shape, towards_viewer: tuple[float, float, float]) -> tuple[list[cq.Edge], list[cq.Edge]]:
     """Return visible and hidden edges of a solid, projected; the viewer's right is x."""
     algorithm = HLRBRep_Algo()
     algorithm.Add(solid.wrapped)
@@ -183,7 +188,7 @@ def _arc(edge: cq.Edge) -> Arc:
 
 def _sampled(edge: cq.Edge) -> tuple[Point, ...]:
     """Return points of an edge, so many that lines between them keep to it."""
-    count = 2
+    count = 5 if edge.IsClosed() else 2
     while count < 257:
         shares = np.linspace(0.0, 1.0, 2 * count - 1).tolist()
         finer = np.array([edge.positionAt(share).toTuple()[:2] for share in shares])

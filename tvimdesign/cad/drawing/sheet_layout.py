@@ -154,7 +154,7 @@ def _scale_on(
 
 Point = tuple[float, float]
 Line = tuple[Point, Point]
-_RADIUS = 2.7  # Of the circle around a number [mm]
+RADIUS = 2.7  # Of the circle around a number [mm]
 _REACHES = (7.0, 9.0, 12.0, 15.0, 19.0, 24.0, 30.0, 38.0, 48.0, 60.0, 75.0, 95.0)
 """Lengths of leaders that are tried [mm]."""
 _WAYS = 48
@@ -193,7 +193,7 @@ def draw_balloons(plan: PlacedView, rows: Sequence[FeatureRow], room: Room, mark
         if leader:
             placed.circles.append(leader[1])
             placed.leaders.append(leader)
-            _draw(plan, index, leader)
+            draw_balloon(plan.sheet, index, leader)
 
 
 def _outlines(plan: PlacedView) -> cKDTree:
@@ -221,7 +221,7 @@ def _leaders(placed: _Placed, index: int, room: Room) -> Iterator[Line]:
     away = reaches[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     numbers = (feet[:, None, None, :] + away).reshape(-1, 2)
     inside = (numbers > (left, bottom)).all(axis=1) & (numbers < (right, top)).all(axis=1)
-    covered = placed.outlines.query_ball_point(numbers, _RADIUS + 0.7, return_length=True)
+    covered = placed.outlines.query_ball_point(numbers, RADIUS + 0.7, return_length=True)
     cost = np.broadcast_to(reaches[None, :, None], (len(feet), len(reaches), _WAYS)).ravel() + _COVERED * covered
     for place in np.argsort(np.where(inside, cost, np.inf), kind="stable")[: int(inside.sum())].tolist():
         foot = feet[place // (len(reaches) * _WAYS)]
@@ -230,26 +230,26 @@ def _leaders(placed: _Placed, index: int, room: Room) -> Iterator[Line]:
 
 def _is_free(placed: _Placed, leader: Line) -> bool:
     foot, number = leader
-    edge = _towards(number, foot)
+    edge = towards(number, foot)
     return (
-        all(dist(number, other) > 2.0 * _RADIUS + 0.8 for other in placed.circles)
-        and all(_away(other, (foot, edge)) > _RADIUS + 0.6 for other in placed.circles)
-        and all(_away(number, (line[0], _towards(line[1], line[0]))) > _RADIUS + 0.6 for line in placed.leaders)
-        and all(_away(number, stroke) > _RADIUS + _ARROW for stroke in placed.strokes)
-        and not any(_crosses((foot, edge), line) for line in (*placed.leaders, *placed.strokes))
-        and all(_away(end, (foot, edge)) > _FREE for stroke in placed.strokes for end in stroke)
+        all(dist(number, other) > 2.0 * RADIUS + 0.8 for other in placed.circles)
+        and all(clearance(other, (foot, edge)) > RADIUS + 0.6 for other in placed.circles)
+        and all(clearance(number, (line[0], towards(line[1], line[0]))) > RADIUS + 0.6 for line in placed.leaders)
+        and all(clearance(number, stroke) > RADIUS + _ARROW for stroke in placed.strokes)
+        and not any(crosses((foot, edge), line) for line in (*placed.leaders, *placed.strokes))
+        and all(clearance(end, (foot, edge)) > _FREE for stroke in placed.strokes for end in stroke)
         and all(dist(foot, line[0]) > _FREE for line in placed.leaders)
     )
 
 
-def _towards(number: Point, foot: Point) -> Point:
+def towards(number: Point, foot: Point) -> Point:
     """Return where a leader ends at the circle around its number."""
     reach = dist(number, foot)
-    share = (reach - _RADIUS) / reach
+    share = (reach - RADIUS) / reach
     return foot[0] + share * (number[0] - foot[0]), foot[1] + share * (number[1] - foot[1])
 
 
-def _away(point: Point, line: Line) -> float:
+def clearance(point: Point, line: Line) -> float:
     """Return the distance of a point from a line between two others."""
     (x, y), (to_x, to_y) = line
     along_x, along_y = to_x - x, to_y - y
@@ -258,7 +258,7 @@ def _away(point: Point, line: Line) -> float:
     return hypot(point[0] - x - share * along_x, point[1] - y - share * along_y)
 
 
-def _crosses(leader: Line, other: Line) -> bool:
+def crosses(leader: Line, other: Line) -> bool:
     """Return whether two lines have a point in common."""
 
     def side(line: Line, point: Point) -> float:
@@ -269,10 +269,11 @@ def _crosses(leader: Line, other: Line) -> bool:
     return not apart and side(other, leader[0]) * side(other, leader[1]) <= 0.0
 
 
-def _draw(plan: PlacedView, index: int, leader: Line) -> None:
-    sheet, (foot, number) = plan.sheet, leader
+def draw_balloon(sheet: DrawingSheet, index: int, leader: Line) -> None:
+    """Draw a number in a circle at the end of a leader, and a dot where that starts: places on paper [mm]."""
+    foot, number = leader
     layer = {"layer": "DIMENSION"}
-    sheet.space.add_line(sheet.at(foot), sheet.at(_towards(number, foot)), dxfattribs=layer)
+    sheet.space.add_line(sheet.at(foot), sheet.at(towards(number, foot)), dxfattribs=layer)
     sheet.space.add_circle(sheet.at(foot), 0.4 / sheet.scale, dxfattribs=layer)
-    sheet.space.add_circle(sheet.at(number), _RADIUS / sheet.scale, dxfattribs=layer)
+    sheet.space.add_circle(sheet.at(number), RADIUS / sheet.scale, dxfattribs=layer)
     sheet.text(str(index), number, 2.5, "MIDDLE_CENTER")

@@ -15,7 +15,7 @@ from OCP.TopoDS import TopoDS_Shape
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.base.units import from_si
 from tvimdesign.cad import cad_report
-from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, one_solid, place
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, installed_coils, one_solid, place
 from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
 from tvimdesign.cad.assembly.assembly_note import assembly_note, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import as_ordered, beside, bill, bill_csv, fixtures
@@ -23,6 +23,7 @@ from tvimdesign.cad.assembly.heater_leads import heater_order
 from tvimdesign.cad.assembly.module_script import module_script
 from tvimdesign.cad.assembly.wiring import wiring_svg
 from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.drawing.assembly_sheet import assembly_sheet
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet, plate_outline
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
@@ -99,6 +100,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name="inspect_casting", do=_inspect_casting, needs=(jigs.part_of(kinds), *jigs.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True, words="assembly files"),
+        Work(name="assembly_drawing", do=_assembly_sheet, needs=kinds, named=True, turn=Turn.LATE),
         Work(name="script", do=_script, named=True, words="script of the parts"),
         Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True, words="bill of materials"),
     ]
@@ -300,6 +302,18 @@ def _assembly(job: Job) -> list[SolidCheck]:
     _write(job.folder, cad_report.ASSEMBLY_GLB, glb_bytes(meshed))
     items = bill(job.design, job.titles, placed)
     _write(job.folder, cad_report.ASSEMBLY_DATA, assembly_data(job.design, job.dims, items, meshed))
+    return []
+
+
+def _assembly_sheet(job: Job) -> list[SolidCheck]:
+    """Make the drawing of the whole module, its parts numbered as in the bill."""
+    drawn = _solids(job.needs)
+    placed = place(job.dims, drawn)
+    items = as_ordered(bill(job.design, job.titles, placed))
+    meshed = instances(job.dims, drawn, placed, _meshes(job.needs))
+    sheet = assembly_sheet(job.design.name, items, placed, meshed, installed_coils(job.dims))
+    _write(job.folder, cad_report.drawing_dxf(cad_report.ASSEMBLY), sheet.dxf())
+    _write(job.folder, cad_report.drawing_pdf(cad_report.ASSEMBLY), sheet.pdf())
     return []
 
 
