@@ -67,7 +67,7 @@ def test_every_file_is_there_and_every_check_holds(made):
         f"{folder}/test_pieces.{form}" for folder, form in (("step", "step"), ("print", "stl"), ("print", "3mf"))
     }
     cast = "pcl_arc" if design.mode == "shear" else "pcl_block"
-    for kind in ("housing", "rotor", "link", "retainer", "heater", cast):
+    for kind in ("housing", "rotor", "link", "retainer", "heater", cast, "assembly"):
         expected |= {f"drawings/{kind}.dxf", f"drawings/{kind}.pdf"}
     cut = {file for file in report.files if file.endswith("_cut.dxf")}
     assert {"drawings/link_cut.dxf", "drawings/retainer_cut.dxf"} <= cut

@@ -18,6 +18,7 @@ from ezdxf.document import Drawing
 from ezdxf.entities import Dimension
 from ezdxf.math import Vec3
 from ezdxf.tools.text_size import text_size
+from sheet_texts import no_text_lies_on_another, texts
 from support import cases_of
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
@@ -58,10 +59,6 @@ def drawings(module: tuple[Design, Solids]) -> dict[str, Drawing]:
     design, solids = module
     sheets = {kind: sheet_of(design, kind, solids[kind]) for kind in DRAWN}
     return {kind: ezdxf.read(io.StringIO(sheet.dxf().decode())) for kind, sheet in sheets.items()}
-
-
-def texts(document: Drawing) -> list[str]:
-    return [entity.dxf.text for entity in document.modelspace().query("TEXT")]
 
 
 def measured(document: Drawing) -> list[float]:
@@ -176,26 +173,6 @@ def test_a_long_note_stays_within_the_frame():
     written = list(sheet.document.modelspace().query("TEXT"))
     assert len(written) > 3
     assert max(text_size(entity).width for entity in written) * sheet.scale <= TITLE_WIDTH
-
-
-def no_text_lies_on_another(kind: str, document: Drawing) -> None:
-    boxes = []
-    for entity in document.modelspace().query("TEXT"):
-        size = text_size(entity)
-        width, height = size.width, size.cap_height
-        place = entity.get_placement()
-        x, y = place[1].x, place[1].y
-        if "CENTER" in place[0].name:
-            x -= 0.5 * width
-        if "TOP" in place[0].name:
-            y -= height
-        if "MIDDLE" in place[0].name:
-            y -= 0.5 * height
-        boxes.append((x, x + width, y, y + height, entity.dxf.text))
-    for index, (left, right, low, high, text) in enumerate(boxes):
-        for other_left, other_right, other_low, other_high, other in boxes[:index]:
-            apart = left >= other_right or right <= other_left or low >= other_high or high <= other_low
-            assert apart, f"{kind}: {text!r} lies on {other!r}"
 
 
 def test_views_figures_and_letters_are_laid_out():

@@ -34,7 +34,8 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
         each = f"{item.mass:.2f} | {item.mass * item.quantity:.2f}"
         lines.append(f"| {number} | {_words(item.kind)} | {item.quantity} | {of} | {each} |")
     total = sum(item.mass * item.quantity for item in items)
-    lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{cad_report.BILL_OF_MATERIALS}`.", ""]
+    lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{cad_report.BILL_OF_MATERIALS}`; "
+              f"where each part is: `{cad_report.drawing_pdf(cad_report.ASSEMBLY)}`.", ""]  # fmt: skip
     lines += ["| also needed | |", "|---|---|"] if extra else []
     lines += [
         f"| {_words(item.kind)} | {item.title}{f', about {item.mass:.2f} g' if item.mass else ''} |" for item in extra

@@ -1,7 +1,7 @@
 """The general-assembly drawing: sections through every kind of part, plans, balloons and the list of parts."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations, product
+from itertools import combinations, permutations, product
 from math import degrees
 from typing import Any, NamedTuple
 
@@ -28,8 +28,10 @@ _WHOLE = ("screw", "pin", "dowel")  # Kinds with these ends are not hatched wher
 _STYLES = tuple((turned, apart) for apart in (2.5, 1.4, 4.0) for turned in (0.0, 90.0))
 """How hatching lines are turned [deg], and their distance [mm]."""
 _RING, _PITCH = 13.0, 7.5  # Distance of balloons from a view, and from each other [mm]
-_AROUND, _NAME = _RING + RADIUS + 3.0, 7.0  # Room around a view, and below it for its name [mm]
+_BESIDE = _RING + RADIUS + 3.0  # Room beside, above and below a view [mm]
+_AROUND, _NAME = 2.0 * _BESIDE, 7.0  # Room on both its sides, and for its name below it [mm]
 _LINE, _TEXT, _TITLE = 4.6, 2.3, 36.0  # Height of the list's lines, of its letters, and of the title block [mm]
+_ROUND = 0.05  # Largest difference of width and depth of a round module [mm]
 _COLUMNS = (1.5, 11.0, 20.0, 52.0)  # Where the list's columns begin [mm]
 Size = tuple[float, float]
 
@@ -64,7 +66,7 @@ def assembly_sheet(
         [*fronts, *(plan.at_scale(at.plan_scale / at.scale) for plan in plans)], names, at.corners, strict=True
     ):
         left, right, bottom, _ = (bound * at.scale for bound in view.bounds)
-        middle, level = corner[0] + _AROUND - left, corner[1] + _AROUND + _NAME - bottom
+        middle, level = corner[0] + _BESIDE - left, corner[1] + _BESIDE + _NAME - bottom
         drawn.append(PlacedView(sheet, view, (middle, level)))
         drawn[-1].draw()
         sheet.text(name, (middle + 0.5 * (left + right), corner[1] + 0.5 * _NAME), 3.5, "MIDDLE_CENTER")
@@ -73,7 +75,9 @@ def assembly_sheet(
     for front, section, places in zip(drawn, sections, feet, strict=False):
         for line in section.behind(shown, points):
             front.curve(line, "FINE")
-        _hatch(front, section, styles)
+        for name, part in section.parts.items():
+            for piece in [] if kind_of(name).endswith(_WHOLE) else part.decompose():
+                front.hatch(outlines(piece), *styles[kind_of(name)])
         front.axis()
         on_paper = {number: [front.on_paper(*point) for point in there] for number, there in places.items()}
         for number, leader in balloon_leaders(on_paper, _slots(front, on_left=front is not drawn[0])).items():
@@ -117,37 +121,26 @@ class _Arrangement(NamedTuple):
 def _arrange(sections: Sequence[Size], plans: Sequence[Size], table: float) -> _Arrangement:
     """Return the largest scale on the smallest sheet that shows the module doubled, or on the larger one.
 
-    `sections` and `plans` are sizes of the views [mm]; plans are as large as there is room for beside the table.
+    Sections, of such sizes [mm], stand below each other, plans in a row below them, as large as there is room for
+    beside the table.
     """
-    found = list[_Arrangement]()
+    fits = list[_Arrangement]()
     for form, (width, height) in SIZES.items():
         room = width - 2.0 * MARGIN - TITLE_WIDTH - 4.0, height - 2.0 * MARGIN
         for scale, plan in ((scale, plan) for scale in SCALES for plan in SCALES if 0.2 * scale <= plan <= scale):
-            sizes = [(scale, size) for size in sections] + [(plan, size) for size in plans]
-            boxes = [(2.0 * _AROUND + by * x, 2.0 * _AROUND + _NAME + by * y) for by, (x, y) in sizes]
-            if _TITLE + table <= room[1] and (corners := _in_rows(boxes, room)):
-                found.append(_Arrangement(form, scale, plan, corners))
+            views = [*([(scale, size)] for size in sections), [(plan, size) for size in plans]]
+            rows = [[(_AROUND + by * x, _AROUND + _NAME + by * y) for by, (x, y) in row] for row in views]
+            spare = room[1] - max(sum(max(high for _, high in row) for row in rows), _TITLE + table)
+            gaps = [(room[0] - sum(wide for wide, _ in row)) / (len(row) + 1) for row in rows]
+            if spare >= 0.0 and min(gaps) >= 0.0:
+                level, corners = MARGIN + room[1], list[Point]()
+                for row, gap in zip(rows, gaps, strict=True):
+                    level -= max(high for _, high in row) + spare / (len(rows) + 1)
+                    before = np.cumsum([gap, *(wide + gap for wide, _ in row[:-1])])
+                    corners += [(MARGIN + x, level) for x in before.tolist()]
+                fits.append(_Arrangement(form, scale, plan, corners))
                 break
-    return next((at for at in found if at.scale >= 2.0), max(found, key=lambda at: at.scale))
-
-
-def _in_rows(boxes: Sequence[Size], room: Size) -> list[Point] | None:
-    """Return lower left corners of boxes in rows from the upper left, spread over the room; None if too big."""
-    rows = list[list[Size]]()
-    for box in boxes:
-        if rows and sum(wide for wide, _ in (*rows[-1], box)) <= room[0]:
-            rows[-1].append(box)
-        else:
-            rows.append([box])
-    heights = [max(high for _, high in row) for row in rows]
-    spare, level, corners = room[1] - sum(heights), MARGIN + room[1], list[Point]()
-    for row, height in zip(rows, heights, strict=True):
-        level -= height + spare / (len(rows) + 1)
-        gap, x = (room[0] - sum(wide for wide, _ in row)) / (len(row) + 1), MARGIN
-        for wide, high in row:
-            corners.append((x + gap, level + 0.5 * (height - high)))
-            x += gap + wide
-    return corners if spare >= 0.0 and max(wide for wide, _ in boxes) <= room[0] else None
+    return next((fit for fit in fits if fit.scale >= 2.0), max(fits, key=lambda fit: fit.scale))
 
 
 def _styles(items: Sequence[Item], sections: Sequence[AssemblySection]) -> dict[str, tuple[float, float]]:
@@ -155,21 +148,14 @@ def _styles(items: Sequence[Item], sections: Sequence[AssemblySection]) -> dict[
     touching = set[tuple[str, str]]()
     for section in sections:
         grown = {name: part.offset(0.1) for name, part in section.parts.items()}
-        for one, other in combinations(grown, 2):
-            if not (grown[one] ^ grown[other]).is_empty():
-                touching |= {(kind_of(one), kind_of(other)), (kind_of(other), kind_of(one))}
+        for names in combinations(grown, 2):
+            if not (grown[names[0]] ^ grown[names[1]]).is_empty():
+                touching |= set(permutations(map(kind_of, names)))
     styles = dict[str, tuple[float, float]]()
     for kind in (kind for item in items for kind in item.solids):
         taken = {styles[other] for own, other in touching if own == kind and other in styles}
         styles[kind] = next((style for style in _STYLES if style not in taken), _STYLES[-1])
     return styles
-
-
-def _hatch(view: PlacedView, section: AssemblySection, styles: Mapping[str, tuple[float, float]]) -> None:
-    for name, part in section.parts.items():
-        if not kind_of(name).endswith(_WHOLE):
-            for piece in part.decompose():
-                view.hatch(outlines(piece), *styles[kind_of(name)])
 
 
 def balloon_leaders(feet: Mapping[int, Sequence[Point]], slots: Array) -> dict[int, Line]:
@@ -215,14 +201,13 @@ def _dimension_envelope(front: PlacedView, plan: PlacedView, points: Array) -> N
     looks: dict[str, Any] = {"dimstyle": "SHEET", "dxfattribs": {"layer": "DIMENSION"}}
     (width, depth, height), bottom, x = np.ptp(points, axis=0), float(points[:, 2].min()), front.view.bounds[0]
     west, east, south, north = plan.view.bounds
-    is_round = abs(width - depth) < 1e-2
     upright = [(front.at(x - front.paper(8.0), 0.0), front.at(x, bottom), front.at(x, bottom + height), height)]
-    if not is_round:
+    if abs(width - depth) > _ROUND:
         upright.append((plan.at(east + plan.paper(15.0), 0.0), plan.at(east, south), plan.at(east, north), depth))
     for base, start, end, size in upright:
         front.sheet.space.add_linear_dim(base, start, end, text=figure(size), angle=90, **looks).render()
-    ends = plan.at(0.0, north + plan.paper(15.0)), plan.at(west, north), plan.at(east, north)
-    plan.sheet.space.add_linear_dim(*ends, text=f"{'⌀' if is_round else ''}{figure(width)}", **looks).render()
+    across, text = (plan.at(west, north), plan.at(east, north)), f"{'⌀' * (len(upright) == 1)}{figure(width)}"
+    plan.sheet.space.add_linear_dim(plan.at(0.0, north + plan.paper(15.0)), *across, text=text, **looks).render()
 
 
 def _list_parts(sheet: DrawingSheet, items: Sequence[Item]) -> None:
