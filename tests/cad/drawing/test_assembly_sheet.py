@@ -28,7 +28,8 @@ from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.study.design import Design
 
 RADIUS = 2.7  # Of a balloon on paper [mm]
-STUDIES = ("elbow_printed", "elbow_machined", "ankle", "finger", "wrist_joint", "wrist_compression", "fast_switch")
+STUDIES = ("elbow_printed", "elbow_machined", "ankle", "finger", "wrist_joint", "fast_switch")
+"""Those whose search starts where every part can be built."""
 QUICK = {"paper", "blocks"}
 ALL = [pytest.param(name, marks=[] if name in QUICK else pytest.mark.slow) for name in (*CASES, *STUDIES)]
 
@@ -117,11 +118,12 @@ def test_leaders_end_on_the_part_of_their_number(drawn):
         x, z = np.subtract(balloon.foot, shift)
         there = [name for name, part in section.parts.items() if contains(part, (x, z))]
         item = drawn.items[balloon.number - 1]
-        assert {kind_of(name) for name in there} <= set(item.solids), (item.kind, there)
+        own = [name for name in there if kind_of(name) in item.solids]
+        assert own, (item.kind, there)
         # On the solid itself, too, where the half plane stands in the module.
         along, azimuth = (x, section.right) if x >= 0.0 else (-x, section.left)
         point = cq.Vector(along * cos(azimuth), along * sin(azimuth), z)
-        assert any(drawn.placed[name].isInside(point, 0.06) for name in there), item.kind
+        assert any(drawn.placed[name].isInside(point, 0.06) for name in own), item.kind
 
 
 def test_the_sheet_stays_inside_its_frame_and_can_be_read(drawn):

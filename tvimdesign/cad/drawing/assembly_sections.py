@@ -132,7 +132,7 @@ def assembly_sections(placed: Mapping[str, Instance]) -> list[AssemblySection]:
 
 def _inside(part: CrossSection) -> Iterator[tuple[float, Point]]:
     """Yield a point well inside each piece of a cut part, with its distance from the outline [mm]."""
-    for piece in part.decompose():
+    for piece in (piece for piece in part.decompose() if piece.area() > _HAIR**2):
         left, low, right, high = piece.bounds()
         depth = 0.5 * min(right - left, high - low)
         while (inner := piece.offset(-depth)).is_empty() and depth > _HAIR:
@@ -145,16 +145,17 @@ def pointed_at(
 ) -> list[dict[int, list[Point]]]:
     """Return where each item can be pointed at, by its number, in one section; `items` are the kinds that each is.
 
-    That is the first section that shows it well at a scale, else that which shows it best. What others overlap is no
-    place to point at.
+    That is the first section that shows it well at a scale, else that which shows it best. What others overlap is
+    pointed at only if nothing else is left.
     """
     chosen: list[dict[int, list[Point]]] = [{} for _ in sections]
     for number, kinds in items.items():
         places = list[list[tuple[float, Point]]]()
         for section in sections:
-            own = {name for name in section.parts if kind_of(name) in kinds}
+            own = {name: part for name, part in section.parts.items() if kind_of(name) in kinds}
             others = _together(part for name, part in section.parts.items() if name not in own)
-            deep = [depth for name in own for depth in _inside(section.parts[name] - others)]
+            free = [depth for part in own.values() for depth in _inside(part - others)]
+            deep = free or [depth for part in own.values() for depth in _inside(part)]
             places.append(sorted(deep, reverse=True))
         best = [place[0][0] * scale if place else 0.0 for place in places]
         index = next((index for index, depth in enumerate(best) if depth > _CLEAR), int(np.argmax(best)))

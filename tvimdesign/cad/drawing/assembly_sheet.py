@@ -145,7 +145,7 @@ def _arrange(sections: Sequence[Size], plans: Sequence[Size], table: float) -> _
 
 def _styles(items: Sequence[Item], sections: Sequence[AssemblySection]) -> dict[str, tuple[float, float]]:
     """Return how each kind of part is hatched, by kind: unlike those that it touches in a section."""
-    touching = set[tuple[str, str]]()
+    touching = set[tuple[str, ...]]()
     for section in sections:
         grown = {name: part.offset(0.1) for name, part in section.parts.items()}
         for names in combinations(grown, 2):

@@ -100,7 +100,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name="inspect_casting", do=_inspect_casting, needs=(jigs.part_of(kinds), *jigs.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True, words="assembly files"),
-        Work(name="assembly_drawing", do=_assembly_sheet, needs=kinds, named=True, turn=Turn.LATE),
+        Work(name="assembly_drawing", do=_assembly_sheet, needs=kinds, named=True),
         Work(name="script", do=_script, named=True, words="script of the parts"),
         Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True, words="bill of materials"),
     ]
