@@ -15,7 +15,7 @@ from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.drawing.projection import Chain, Point, seen_lines
 from tvimdesign.cad.export.mesh import Array, Instance
 from tvimdesign.cad.export.print_files import body_of
-from tvimdesign.cad.geometry.kinds import is_of_structure, kind_of
+from tvimdesign.cad.geometry.kinds import KINDS, is_of_structure, kind_of
 
 _HAIR = 1e-3  # Distance of a plane from the axis [mm]: faces that lie in it would be cut or not by chance
 _STRAIGHT, _SNAP = radians(15.0), radians(1.6)  # Planes near a multiple of the first are taken there
@@ -34,7 +34,7 @@ class AssemblySection:
     parts: Mapping[str, CrossSection]  # By name: x to the right, z upwards [mm]
 
     def behind(self, solids: Mapping[str, cq.Shape], points: Mapping[str, Array]) -> list[Chain]:
-        """Return what is seen behind the cut faces: of parts that are not cut, and of cut parts of the structure.
+        """Return what is seen behind the cut faces: of parts that are not cut, and of the structure's that are alone.
 
         `points` are the vertices of the parts' meshes.
         """
@@ -45,7 +45,7 @@ class AssemblySection:
                 along = side * (points[name] @ (cos(turn), sin(turn), 0.0))
                 ahead = points[name] @ (-sin(turn), cos(turn), 0.0)
                 is_cut = min(along.min(), ahead.min()) < 0.0
-                if min(along.max(), ahead.max()) > 0.0 and not (is_cut and not is_of_structure(kind_of(name))):
+                if min(along.max(), ahead.max()) > 0.0 and (not is_cut or (name in KINDS and is_of_structure(name))):
                     there = solid.rotate(cq.Vector(), cq.Vector(0, 0, 1), -degrees(turn))
                     size = 4.0 * float(np.abs(points[name]).max())
                     corner = cq.Vector(0.5 * (side - 1.0) * size, 0, -0.5 * size)

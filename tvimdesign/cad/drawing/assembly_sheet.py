@@ -16,7 +16,7 @@ from tvimdesign.cad.drawing import drawing_sheet
 from tvimdesign.cad.drawing.assembly_sections import AssemblySection, assembly_sections, outlines, pointed_at
 from tvimdesign.cad.drawing.drawing_sheet import MARGIN, SIZES, TITLE_WIDTH, DrawingSheet, Field, figure, ratio
 from tvimdesign.cad.drawing.placed_view import PlacedView
-from tvimdesign.cad.drawing.projection import Point, View, seen_lines
+from tvimdesign.cad.drawing.projection import Point, View, seen
 from tvimdesign.cad.drawing.sheet_layout import RADIUS, SCALES, Line, clearance, crosses, draw_balloon, towards
 from tvimdesign.cad.export.mesh import Array, Instance
 from tvimdesign.cad.geometry.kinds import SPRINGS, kind_of
@@ -55,7 +55,7 @@ def assembly_sheet(
     fronts = [
         View((), tuple(line for part in section.parts.values() for line in outlines(part))) for section in sections
     ]
-    plans = [View((), seen_lines(cq.Compound.makeCompound(shapes), (0, 0, 1))) for shapes in (shown.values(), opened)]
+    plans = [seen(cq.Compound.makeCompound(shapes), (0, 0, 1)) for shapes in (shown.values(), opened)]
     at = _arrange([_size(view) for view in fronts], [_size(view) for view in plans], _LINE * (len(items) + 1))
     sheet = DrawingSheet(at.scale, at.form)
     removed = " and ".join(kind for kind in LIDS[:2] if kind in shown)
@@ -240,6 +240,8 @@ def _words(sheet: DrawingSheet, module: str, items: Sequence[Item], sections: Se
     ]  # fmt: skip
     sheet.column(notes, (sheet.size[0] - MARGIN - TITLE_WIDTH, sheet.size[1] - MARGIN - 2.0))
     contents = [module, *notes, *(f"{item.kind} {item.quantity} {item.title} {item.mass:.2f}" for item in items)]
+    cut = (cut for section in sections for cut in section.parts.items())
+    contents += [f"{name} {part.area():.2f} {np.round(part.bounds(), 2).tolist()}" for name, part in cut]
     mass = sum(item.mass * item.quantity for item in items)
     sheet.title_block(
         "assembly",

@@ -85,9 +85,14 @@ def from_above(solid: cq.Solid) -> View:
     return View(arcs, chains, tuple(curve for curve in behind if curve not in in_front))
 
 
+def seen(shape: cq.Shape, towards_viewer: tuple[float, float, float]) -> View:
+    """Return the view of one or more solids from a direction, without what lies behind; the viewer's right is x."""
+    return View(*_curves(_edges(shape, towards_viewer)[0]))
+
+
 def from_below(solid: cq.Solid) -> View:
     """Return the view from below of what is turned over about x, without what lies behind."""
-    return View(*_curves(_edges(solid, (0, 0, -1))[0]))
+    return seen(solid, (0, 0, -1))
 
 
 def seen_lines(shape: cq.Shape, towards_viewer: tuple[float, float, float]) -> tuple[Chain, ...]:
@@ -188,6 +193,8 @@ def _arc(edge: cq.Edge) -> Arc:
 
 def _sampled(edge: cq.Edge) -> tuple[Point, ...]:
     """Return points of an edge, so many that lines between them keep to it."""
+    if edge.geomType() == "LINE":
+        return tuple((_round(end.x), _round(end.y)) for end in (edge.startPoint(), edge.endPoint()))
     count = 5 if edge.IsClosed() else 2
     while count < 257:
         shares = np.linspace(0.0, 1.0, 2 * count - 1).tolist()
