@@ -97,13 +97,28 @@ def torque_path_grid(answer: StudyResult) -> Grid:
     borne = {name: values[name] for name in parts if name in values}
     if "foot_safety" in values:
         borne["foot_safety"] = values["foot_safety"] * values["holding_torque"]
+    strengths = {name: _strengths_behind(table, name) for name in borne}
+    wanted = list(dict.fromkeys(strength for names in strengths.values() for strength in names))
+    strong = table.evaluate({**answer.design.values, **answer.design.choices}, wanted)
     rows = [
-        (name, number(torque), number(torque / against, 3) if against else "", table.output(name).description)
+        (name, number(torque), number(torque / against, 3) if against else "",
+         " / ".join(dict.fromkeys(number(1e-6 * strong[strength], 3) for strength in strengths[name])), table.output(name).description)
         for name, torque in sorted(borne.items(), key=lambda part: part[1])
-    ]
-    safety = f", structure's strengths divided by {number(values['holding_safety'])}, `holding_safety`"
+    ]  # fmt: skip
+    cold = f" at {in_unit(values['temperature@cold'], 'degC')} °C" if "temperature@cold" in values else ""
+    safety = f", structure's strengths{cold} divided by {number(values['holding_safety'])}, `holding_safety`"
     title = f"Load path of the frozen torque, weakest part first; safety against {number(against)} N·m{safety}"
-    return grid(title, ("part", "bears [N·m]", "safety", "meaning"), rows, right=(1, 2))
+    return grid(title, ("part", "bears [N·m]", "safety", "strength [MPa]", "meaning"), rows, right=(1, 2, 3))
+
+
+def _strengths_behind(table: Table, name: str) -> list[str]:
+    """Return the strengths from which a quantity is computed, those that the fewest steps lie between; none of some."""
+    met, seen = [name], {name}
+    while met and not (found := [each for each in met if "strength" in each]):
+        met = [need for each in met for need in getattr(table.quantity(each.split("@")[0]), "needs", ())]
+        met = [each for each in dict.fromkeys(met) if each not in seen]
+        seen.update(met)
+    return found if met else []
 
 
 def currents_grid(answer: StudyResult) -> Grid:
