@@ -102,7 +102,8 @@ def torque_path_grid(answer: StudyResult) -> Grid:
     strong = table.evaluate({**answer.design.values, **answer.design.choices}, wanted)
     rows = [
         (name, number(torque), number(torque / against, 3) if against else "",
-         " / ".join(dict.fromkeys(number(1e-6 * strong[strength], 3) for strength in strengths[name])), table.output(name).description)
+         " / ".join(dict.fromkeys(number(1e-6 * strong[of], 3) for of in strengths[name])),
+         table.output(name).description)
         for name, torque in sorted(borne.items(), key=lambda part: part[1])
     ]  # fmt: skip
     cold = f" at {in_unit(values['temperature@cold'], 'degC')} °C" if "temperature@cold" in values else ""
