@@ -289,7 +289,7 @@ TO_SIZE = {
 RATED = {
     "thermal_grease", "heat_conducting_adhesive", "polyimide_film", "thread_locker", "motor_adhesive", "mould_release",
     "supply", "driver", "controller", "controller_supply", "wire_sleeve", "crimp_splice", "grease",
-    "divider_resistor", "thread_patch", "gap_pad", "sealing_tape", "spacer_strip",
+    "divider_resistor", "thread_patch", "gap_pad", "sealing_tape",
 }  # fmt: skip
 """Kinds that any shop has, by a rating that the bill tells."""
 FIGURE = re.compile(r"\d+(\.\d+)? (°C|V|A)\b")

@@ -20,7 +20,7 @@ from tvimdesign.catalog.offers import QUOTE, offer_for, offers, total
 
 KINDS = {"thread_locker", "thread_patch", "supply", "driver", "controller", "thermistor", "heat_conducting_adhesive"}
 KINDS |= {"preload_spring", "heater", "thermal_cutout", "controller_supply", "divider_resistor", "heater_wire"}
-KINDS |= {"crimp_splice", "wire_sleeve", "polyimide_film", "gap_pad", "thermal_grease", "grease"}
+KINDS |= {"crimp_splice", "wire_sleeve", "polyimide_film", "gap_pad", "sealing_tape", "thermal_grease", "grease"}
 KINDS |= {"filament", "mould_release", "spreader", "liner", "motor_driver"}
 DATE, UNDATED = re.compile(r"20\d\d-\d\d(-\d\d)?"), "not stated"
 BRIDGE, DOWN = "H-bridge, current controlled", "Step-down driver, current controlled"

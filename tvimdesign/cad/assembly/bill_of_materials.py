@@ -318,10 +318,7 @@ def _under_pads(design: Design, titles: Mapping[str, str]) -> list[Item]:
             where = f"along both rims of each spreader, {gap:.2g} mm wide and {deep:.2g} mm deep"
             items.append(_adhesive(design, titles, where))
             tape = f"PTFE sealing tape for {rating(design)}, twisted into cords below the spreaders' rims"
-            film = f"{1e3 * design.value('slip_clearance'):.2g} mm thick, 3 mm wide, beside the spreaders"
-            strip, count = f"Strip of PTFE film for {rating(design)}, {film}", 8 * round(design.value("arc_count"))
-            items += [Item("sealing_tape", 1, False, "", tape, 0.0, ())]
-            items += [Item("spacer_strip", count, False, "", strip, 0.0, ())]
+            items.append(Item("sealing_tape", 1, False, "", tape, 0.0, ()))
         elif design.choices.get("heater_form", "flexible") != "flexible":
             items.append(_adhesive(design, titles, "below the lower edge of each spreader"))
         return items
