@@ -20,7 +20,7 @@ from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.blocks.facts import _active_constraints
 from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.blocks.sections import assumptions_section
-from tvimdesign.report.run.blocks.tables import checks_grid, intervals_grid, moves
+from tvimdesign.report.run.blocks.tables import checks_grid, intervals_grid, moves, torque_path_grid
 from tvimdesign.report.run.reasons import active, sentences, why_csv, why_rows
 from tvimdesign.report.run.run_page import glance
 from tvimdesign.solve.result import StudyResult, answer
@@ -180,6 +180,16 @@ def test_a_limit_active_at_its_tolerance_margin_is_so_everywhere(optimum):
     table = checks_grid(with_margins)
     assert len(table.rows) == len(checks) >= 2
     assert {row[0].text for row in table.rows} == {"active"}
+
+
+def test_the_load_path_shows_the_strength_behind_each_part(optimum):
+    table = torque_path_grid(optimum)
+    strengths = {row[0].text: row[3].text for row in table.rows}
+    values = optimum.design.values
+    assert float(strengths["layer_holding_torque"]) == pytest.approx(1e-6 * values["bond_strength"], rel=5e-3)
+    steel = 1e-6 * values["link_dowel_shear_strength"]
+    assert float(strengths["dowel_shear_holding_torque"]) == pytest.approx(steel, rel=5e-3)
+    assert "strengths at 30 °C" in table.caption
 
 
 def test_the_first_run_says_that_it_compiles(tmp_path, monkeypatch):

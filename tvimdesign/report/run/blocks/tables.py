@@ -115,11 +115,11 @@ def torque_path_grid(answer: StudyResult) -> Grid:
 def _strengths_behind(table: Table, name: str) -> list[str]:
     """Return the strengths from which a quantity is computed, those that the fewest steps lie between; none of some."""
     met, seen = [name], {name}
-    while met and not (found := [each for each in met if "strength" in each]):
+    while met and not (strengths := [each for each in met if "strength" in each]):
         met = [need for each in met for need in getattr(table.quantity(each.split("@")[0]), "needs", ())]
         met = [each for each in dict.fromkeys(met) if each not in seen]
         seen.update(met)
-    return found if met else []
+    return strengths if met else []
 
 
 def currents_grid(answer: StudyResult) -> Grid:
