@@ -84,7 +84,7 @@ def test_drawings_dimension_call_out_and_title_the_design(module, drawings):
     for kind, sizes in expected.items():
         drawn_sizes = np.array(measured(drawings[kind]))
         for size in sizes:
-            assert np.min(np.abs(drawn_sizes - size)) < 1e-4, f"{kind}: {size} is not among {drawn_sizes}"
+            assert np.sum(np.abs(drawn_sizes - size) < 1e-4) == 1, f"{kind}: {size} is not once among {drawn_sizes}"
     radius = 2e3 * design.values["placement_radius"]
     figure = f"{radius:.2f}".rstrip("0").rstrip(".")
     assert f"4× hole ⌀3.4, on ⌀{figure} every 90° from 45°, h 0 to 10 (10)" in texts(drawings["housing"])

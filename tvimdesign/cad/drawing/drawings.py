@@ -28,6 +28,7 @@ The row of a thread describes it in full; a vane, with its slots and steps, is s
 """
 _FOR_NUMBERS = 14.0  # Room between plan and underside, and below that for its name [mm]
 _AZIMUTHS = "Azimuths count from x, to the right, counter-clockwise in the plan."
+_SAME = 1e-3  # Difference of sizes that are one [mm]
 _WALLS = "Walls: distance of their plane from the axis, azimuth of the way they face."
 
 
@@ -60,7 +61,7 @@ def part_sheet(
     if requirements.general:
         placed_front.ground(GROUND)
     _dimension_diameters(placed_front, [central[diameter] for diameter in sorted(central)], requirements)
-    _dimension_extent(placed_front, sorted(central))
+    _dimension_extent(placed_front, sorted(central), heights)
     _dimension_levels(placed_front, heights)
     sheet_layout.draw_tables(sheet, rows, requirements)
     room = _draw_underside(placed_plan, solid, place.room) if plan.hidden else place.room
@@ -164,16 +165,18 @@ def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], req
             front.datum(DATUM, (-face.radius, level), left - front.paper(12.0))
 
 
-def _dimension_extent(front: PlacedView, diameters: Sequence[float]) -> None:
-    """Dimension the overall length, where no diameter gives it, and the overall height."""
+def _dimension_extent(front: PlacedView, diameters: Sequence[float], heights: Sequence[float]) -> None:
+    """Dimension the overall length and height, where no diameter and no level gives them."""
     left, right, bottom, top = front.view.bounds
     space = front.sheet.space
-    if all(abs(right - left - diameter) > 1e-3 for diameter in diameters):
+    if all(abs(right - left - diameter) > _SAME for diameter in diameters):
         base = front.at(0.0, top + front.paper(sheet_layout.FIRST + len(diameters) * sheet_layout.NEXT))
         ends = front.at(left, top), front.at(right, top)
         space.add_linear_dim(
             base, *ends, text=figure(right - left), dimstyle="SHEET", dxfattribs={"layer": "DIMENSION"}
         ).render()
+    if any(abs(top - height) < _SAME for height in heights):
+        return
     base = front.at(left - front.paper(10.0), 0.0)
     ends = front.at(left, bottom), front.at(left, top)
     space.add_linear_dim(
