@@ -14,6 +14,7 @@ from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.assembly.bill_of_materials import beside
 from tvimdesign.cad.export.mesh import Array, Instance, solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.inspection.inspect import bought_checks, fit_checks
 from tvimdesign.cad.inspection.rays import Triangles, samples
@@ -86,6 +87,34 @@ def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported():
     aside = solids["heater_lead_1"].moved(cq.Location(cq.Vector(0.0, 0.0, 2.0)))
     moved = {check.part: check for check in bought_checks({**solids, "heater_lead_1": aside})}
     assert not moved["heater_lead"].ok
+
+
+@pytest.mark.parametrize(("mode", "away"), [("shear", (1.0, 0.0)), ("compression", (2.0, 0.0))])
+def test_leads_of_pads_begin_on_them_and_go_down_to_the_side(mode, away):
+    design = design_of("pads", {"heater_module": "polyimide_foil_24v"} if mode == "shear" else {}, mode)
+    dims = dimensions(design)
+    polymer = "pcl_arc" if mode == "shear" else "pcl_block"
+    solids = placed_solids(dims, ("housing", "heater", "heater_lead", "thermal_cutout", polymer))
+    leads = {name: solid for name, solid in solids.items() if kind_of(name) == "heater_lead"}
+    assert len(leads) == 2 * design.values["heater_count"]
+    assert sum(lead.Volume() for lead in leads.values()) == pytest.approx(1e9 * design.values["lead_volume"], rel=1e-6)
+    for lead in leads.values():
+        pads = [solid for name, solid in solids.items() if kind_of(name) == "heater"]
+        assert min(lead.distance(pad) for pad in pads) == pytest.approx(0.0, abs=1e-6)
+        assert lead.BoundingBox().zmin < -dims.floor_thickness + 1e-6
+    checks = {check.part: check for check in bought_checks(solids)}
+    assert all(check.ok for check in checks.values()), [check.text for check in checks.values()]
+    moved = leads["heater_lead_1"].moved(cq.Location(cq.Vector(*away, 0.0)))
+    (check,) = (check for check in bought_checks({**solids, "heater_lead_1": moved}) if check.part == "heater_lead")
+    assert not check.ok
+
+
+def test_a_lead_that_a_window_has_no_room_for_breaks_a_rule_and_meets_the_floor():
+    narrow = design_of("narrow", {"window_ledge": 5.7e-3, "lead_diameter": 2.4e-3})
+    assert narrow.values["lead_window_margin"] < 0.0
+    solids = placed_solids(dimensions(narrow), ("housing", "heater", "heater_lead", "pcl_arc"))
+    (check,) = bought_checks(solids)
+    assert check.value < 0.1
 
 
 @pytest.mark.parametrize(("changes", "mode"), [({}, "shear"), (TILES, "shear"), ({}, "compression")])

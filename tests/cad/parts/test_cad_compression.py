@@ -139,11 +139,11 @@ def test_a_random_module_that_keeps_the_rules_passes_every_check(seed):
         assert closed(name, solid_mesh(solid)).is_watertight
 
 
-IN_VANES = {"housing": 1, "heater": 8, "spreader": 8, "pcl_block": 8}
+IN_VANES = {"housing": 1, "heater": 8, "heater_lead": 16, "spreader": 8, "pcl_block": 8}
 TILED: dict[str, tuple[str, Mapping[str, float | str], dict[str, int]]] = {
     "over windows": ("shear", TILES, {"housing": 1, "heater": 6, "heater_lead": 12, "spreader": 3, "pcl_arc": 3}),
     "in vanes": ("compression", VANE_TILES, IN_VANES),
-    "two in a vane": ("compression", VANE_TILE_ROWS, {**IN_VANES, "heater": 16}),
+    "two in a vane": ("compression", VANE_TILE_ROWS, {**IN_VANES, "heater": 16, "heater_lead": 32}),
 }
 """Mode, changes and how many solids of each kind there are."""
 TWO = pytest.param("two in a vane", marks=pytest.mark.slow)

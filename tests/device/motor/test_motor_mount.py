@@ -58,10 +58,10 @@ def test_the_drive_is_in_the_mass_and_inertia_of_the_module():
     assert driven["module_mass"] - bare["module_mass"] == pytest.approx(driven["drive_mass"])
     assert driven["parts_inertia"] == bare["parts_inertia"]
     assert driven["structure_stiffness"] == bare["structure_stiffness"]
-    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass heater_mass cutout_mass"
+    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass heater_mass lead_mass cutout_mass"
     values = values_of(rows, **DRIVEN)
     springs = values["springs_mass"] * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
-    on_arcs = values["pcl_mass"] + values["heater_mass"] + values["cutout_mass"]
+    on_arcs = values["pcl_mass"] + values["heater_mass"] + values["lead_mass"] + values["cutout_mass"]
     between = on_arcs * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
     whole = values["drive_inertia"] + values["housing_inertia"] + springs + between
     assert values["driven_inertia"] == pytest.approx(whole)
@@ -103,11 +103,11 @@ def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one():
 
 
 def test_the_motor_turns_cover_and_adjusters_as_well():
-    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass heater_mass cutout_mass adjusters_mass "
-    radii = "housing_inner_radius housing_outer_radius"
+    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass heater_mass lead_mass cutout_mass "
+    radii = "adjusters_mass housing_inner_radius housing_outer_radius"
     values = values_of(rows + radii, **DRIVEN | {"cover": "plate", "preload_adjuster": "rotary"})
     springs = (values["springs_mass"] + values["adjusters_mass"]) * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
-    on_arcs = values["pcl_mass"] + values["heater_mass"] + values["cutout_mass"]
+    on_arcs = values["pcl_mass"] + values["heater_mass"] + values["lead_mass"] + values["cutout_mass"]
     between = on_arcs * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
     # A plate of 1.5 mm, less the core's hole of 10.4 mm, four of 1.2 mm on the wall's radius and four of 3.5 on 57 mm.
     polar = 0.5 * np.pi * (values["housing_outer_radius"] ** 4 - (10.4 * MM) ** 4)

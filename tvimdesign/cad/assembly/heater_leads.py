@@ -268,9 +268,7 @@ def thermistors() -> tuple[Thermistor, ...]:
 
 
 def pad_count(design: Design) -> int:
-    """Return the heaters of a design: those of the arcs, or two for each vane."""
-    if design.mode == "compression":
-        return 2 * round(design.value("vane_count"))
+    """Return the heaters of a design: those of the arcs or vanes, or all their tiles."""
     return round(design.value("heater_count"))
 
 
@@ -315,9 +313,11 @@ def heater_order(design: Design) -> list[str]:
         leads += f" of {wire.gauge} or thicker" if (wire := _wire(amperes)) else f" for {up(amperes)} A"
     long, ledge = (1e3 * design.value(name) for name in ("envelope_diameter", "window_ledge"))
     exits = f"at least {long:.0f} mm long, off one face, {ledge:.3g} mm or more inside the outline"
-    if design.mode != "compression":  # in the window of the floor, where there is no ledge
+    if design.mode == "compression":
+        exits += f", side by side from R{1e3 * design.value('slot_inner_radius'):.3g} outwards"
+    else:  # in the window of the floor, where there is no ledge
         radius = 5e2 * (design.value("pcl_inner_radius") + design.value("pcl_outer_radius"))
-        exits += f", side by side across R{radius:.3g} at one end"
+        exits += f", on R{radius:.3g}, one at either end"
     small = f"only {1e4 * area / count:.2g} cm² each: ask whether such leads have room, or for a flat tail"
     order += [f"{leads}, insulated for {rating(design)}", f"leads {exits}"]
     return [*order, small] if area < _SMALL_FOIL * count else order

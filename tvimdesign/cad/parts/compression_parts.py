@@ -89,6 +89,8 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
     for index, azimuth in enumerate(_housing_vanes(dims)):
         for face, side in enumerate(_SIDES):
             placed |= _heaters(dims, drawn, 2 * index + face, azimuth, side)
+    if "heater_lead" in drawn:
+        placed |= heater_parts.leads_in_vanes(dims, drawn["heater_lead"], _housing_vanes(dims))
     if "liner" in drawn:
         for index, azimuth in enumerate(dims.azimuths("vane_count")):
             for second, sheet in enumerate(heater_parts.liners_on_vane(dims, drawn["liner"], azimuth + rotor_angle)):

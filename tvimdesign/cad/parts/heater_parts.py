@@ -4,7 +4,7 @@ Parts of the shear module are centred on the x axis, as an arc is; those in vane
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from math import sin
+from math import cos, sin, sqrt
 
 import cadquery as cq
 
@@ -19,7 +19,7 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
     in_arcs = dims.mode != "compression"
     return {
         **({"spreader": arc_spreader if in_arcs else vane_spreader} if dims.spreader_depth else {}),
-        **({"heater_lead": heater_lead} if in_arcs and dims.spreader_depth else {}),
+        "heater_lead": heater_lead if in_arcs else _straight_lead,
         **({"thermistor": bead_by_arc if in_arcs else bead_by_vane} if dims.thermistor_diameter else {}),
         **({"liner": _liner_on_arc if in_arcs else _liner_on_vane} if dims.liner_depth else {}),
         **({"thermal_cutout": cutout} if dims.cutout_diameter else {}),
@@ -41,9 +41,11 @@ def arc_tile(dims: Dimensions) -> cq.Shape:
 
 
 def heater_lead(dims: Dimensions) -> cq.Shape:
-    """Draw one lead of a tile on the x axis from the tile's end to the ground, in the middle of its slot."""
+    """Draw one lead of a heater on the x axis from a tile's end, or a pad's outer face, to the ground."""
     radius, angle, level = dims.lead_bend_radius, dims.lead_bend_angle, dims.lead_level
-    x, end = dims.lead_slot_radius, -0.5 * dims.heater_length
+    x, end = dims.window_radius, 0.5 * dims.lead_way
+    if dims.spreader_depth:
+        x, end = dims.lead_slot_radius, -0.5 * dims.heater_length
     run, drop = 2.0 * radius * sin(angle), dims.lead_drop
     down = ((x, end, level), (x, end, level - radius), (1.0, 0.0, 0.0), angle)
     ground = (x, end - run, level - drop + radius)
@@ -51,12 +53,43 @@ def heater_lead(dims: Dimensions) -> cq.Shape:
     return tube(0.5 * dims.lead_diameter, [down, back])
 
 
-def leads_of_tiles(dims: Dimensions, lead: cq.Solid, azimuths: Sequence[float]) -> dict[str, cq.Shape]:
-    """Place both leads of the tiles at some azimuths [rad], by name."""
-    apart = 0.25 * dims.lead_slot_width
-    pair = [lead.moved(cq.Location(cq.Vector(side * apart, 0.0, 0.0))) for side in _SIDES]
-    leads = [turned(bent, azimuth) for azimuth in azimuths for bent in pair]
-    return {f"heater_lead_{index + 1}": bent for index, bent in enumerate(leads)}
+def leads_below_arcs(dims: Dimensions, lead: cq.Solid, azimuths: Sequence[float]) -> dict[str, cq.Shape]:
+    """Place both leads of the heaters at some azimuths [rad], by name: side by side, or at either end of a window."""
+    if dims.spreader_depth:
+        apart = 0.25 * dims.lead_slot_width
+        pair = [lead.moved(cq.Location(cq.Vector(side * apart, 0.0, 0.0))) for side in _SIDES]
+    else:
+        back = lead.moved(cq.Location(cq.Vector(2.0 * dims.window_radius, 0.0, 0.0), cq.Vector(0, 0, 1), 180.0))
+        beside = dims.lead_window_arc / dims.window_radius
+        pair = [turned(lead, -beside), turned(back, beside)]
+    return _numbered([turned(bent, azimuth) for azimuth in azimuths for bent in pair])
+
+
+def _numbered(leads: Sequence[cq.Shape]) -> dict[str, cq.Shape]:
+    return {f"heater_lead_{index + 1}": lead for index, lead in enumerate(leads)}
+
+
+def _straight_lead(dims: Dimensions) -> cq.Shape:
+    """Draw one lead of a heater in a vane, on the axis, down to the floor's lower face."""
+    bottom = -dims.floor_thickness
+    return cylinder(0.5 * dims.lead_diameter, bottom, bottom + dims.lead_drop)
+
+
+def leads_in_vanes(dims: Dimensions, lead: cq.Solid, azimuths: Sequence[float]) -> dict[str, cq.Shape]:
+    """Place both leads of the heaters in both faces of the vanes at some azimuths [rad], by name."""
+    half, apart = 0.5 * dims.housing_vane_angle, 0.5 * dims.lead_room
+    depth = dims.pad_depth + 0.5 * (-dims.heater_thickness if dims.spreader_depth else dims.lead_diameter)
+    slots = [0.0, *(index * dims.tile_slot_pitch for index in range(1, round(dims.heater_count / len(azimuths) / 2)))]
+    places = [dims.slot_inner_radius + slot + beside * apart for slot in slots for beside in (0.5, 1.5)]
+    # Measured from the axis behind a pad, and along the vane's middle below a tile.
+    along = [
+        (place - depth * sin(half)) / cos(half) if dims.spreader_depth else sqrt(place**2 - depth**2)
+        for place in places
+    ]
+    behind = [
+        turned(lead.moved(cq.Location(cq.Vector(x, -side * depth, 0.0))), side * half) for side in _SIDES for x in along
+    ]
+    return _numbered([turned(solid, azimuth) for azimuth in azimuths for solid in behind])
 
 
 def arc_spreader(dims: Dimensions) -> cq.Shape:

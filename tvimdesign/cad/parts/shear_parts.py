@@ -105,7 +105,7 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
         for index, azimuth in enumerate(places[kind])
     }
     if "heater_lead" in drawn:
-        placed |= heater_parts.leads_of_tiles(dims, drawn["heater_lead"], pads)
+        placed |= heater_parts.leads_below_arcs(dims, drawn["heater_lead"], pads)
     return placed | heater_parts.stand_cutout(drawn, _azimuths(dims)[0] + beside[len(beside) // 2])
 
 

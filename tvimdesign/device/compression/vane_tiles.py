@@ -5,7 +5,8 @@ Behind the face of each block stands a spreader of the block's face, flush with 
 the axis. Spreader and tiles stand on the floor of the pocket, which is open above and at both ends as a pad's is. The
 vane has a slot behind each tile, with flat ends across the vane's middle, as wide as `slot_share` of the tile; the two
 tiles of a vane share it. A `window_ledge` below a tile's upper edge the slot ends, so a tile bears on both its sides
-and above. Below the tiles the slot reaches under their middle, for the leads.
+and above. Below the tiles the slot reaches under their middle, for the leads, which go straight down at its inner
+end.
 
 A block presses on its pad, or on a spreader and the tiles behind it, and these on the vane beside the slot. A module
 is strong where it is pressed and weak where it is sheared: it carries the joint's torque in this mode as it is meant
@@ -19,7 +20,7 @@ wires go down through a hole of the floor, through which it is put in.
 
 import numpy as np
 
-from tvimdesign.device.core.heater_form import CUT, WITH_TILES
+from tvimdesign.device.core.heater_form import CUT, LEADS, WITH_TILES
 from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids import structure
@@ -37,12 +38,6 @@ tile_places.same("tiles_per_pocket", "tiles_per_block", "Rectangular heaters in 
 tile_places.same(
     "slot_count", "tiles_per_block", "Slots of a housing vane [1]: one behind each tile; one behind pads", default=1.0
 )
-
-
-@tile_weights.output("mm^3")
-def lead_volume(m: Module) -> Scalar:
-    """Volume of leads that is drawn: none, for those of tiles in vanes go straight down their slots."""
-    return 0.0 * m.lead_diameter
 
 
 tile_places.formulas("vane_tiles")
@@ -116,6 +111,24 @@ rules = QuantityGroup("Gaps")
 
 
 places.formulas("vane_tiles.places")
+
+
+@places.output("mm", hidden=True)
+def lead_room(m: Module) -> Scalar:
+    """Width of a slot, from its inner end, in which both leads of a heater go down side by side."""
+    return LEADS * (m.lead_diameter + 2.0 * m.lead_clearance)
+
+
+@places.output("mm", hidden=True)
+def lead_drop(m: Module) -> Scalar:
+    """Height of the leads above the floor's lower face: they begin below a tile, or half as high as a pad's slot."""
+    return m.floor_thickness + m.running_clearance + (0.5 * m.slot_height if m.heater_form == CUT else 0.0)
+
+
+@weights.output("mm^3")
+def lead_volume(m: Module) -> Scalar:
+    """Volume of all leads of heaters as far as they are in vanes and floor, where they go straight down."""
+    return LEADS * m.heater_count * 0.25 * np.pi * m.lead_diameter**2 * m.lead_drop
 
 
 @places.output("mm")

@@ -31,6 +31,8 @@ from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
 
 CUT = "flexible"
 WITH_TILES = (Feature("heater_form", CUT),)
+WITH_PADS = (Feature("heater_form", "rigid"),)
+LEADS = 2.0  # Of a heater
 
 kinds = QuantityGroup("Materials")
 places = QuantityGroup("Layout", WITH_TILES)
@@ -54,9 +56,8 @@ places.formulas("heater_form")
 
 
 weights.from_template("spreader", "all spreaders together; zero without", template_mass, "g")
-weights.from_template(
-    "lead", "the leads of rectangular heaters as far as they are in the floor; zero without", template_mass, "g"
-)
+lead_weights = QuantityGroup("Size and weight")
+lead_weights.from_template("lead", "the heaters' leads as far as they are drawn", template_mass, "g")
 
 
 @flows.output("mm^2")

@@ -146,7 +146,7 @@ rules.after("mount_wall_gap")
 @places.output("mm", requires=WITH_CUTOUT)
 def cutout_radius(m: Module) -> Scalar:
     """Distance of the thermal cut-out's middle from the axis: below the middle of the window; zero without."""
-    return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius) if m.heater_form == CUT else m.tile_radius
+    return m.window_radius if m.heater_form == CUT else m.tile_radius
 
 
 rules.same("liner_web", "backing_depth", "Rotor plate above a liner; zero without", "mm", requires=WITH_LINER)

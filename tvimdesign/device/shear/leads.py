@@ -1,26 +1,38 @@
-"""Leads of rectangular heaters under the arcs: how they bend, and the slot of the floor they go down through.
+"""Leads of the heaters under the arcs: how they bend, and the way they go down through the floor.
 
-Both leads leave one end of their module side by side, at half its height. They bend down by `lead_bend_radius` and back
-again, and run on along the ground below the floor. A slot beside that end of each module is as long as this bend needs.
-The module's colder plate ends a porch before that end, on which the leads are soldered.
+A lead bends down by `lead_bend_radius` and back again, and runs on along the ground below the floor. Both leads of a
+module leave one end of it side by side, at half its height. A slot beside that end of each module is as long as this
+bend needs. The module's colder plate ends a porch before that end, on which the leads are soldered.
+
+The leads of a pad lie on its outer face, in the window: one at either end of this, its bend towards that end.
 """
 
 import numpy as np
 
-from tvimdesign.device.core.heater_form import WITH_TILES
+from tvimdesign.device.core.heater_form import CUT, LEADS, WITH_PADS, WITH_TILES
 from tvimdesign.device.table import Module, QuantityGroup, Scalar
 from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at
 
-LEADS = 2.0  # Of a module
 _CUTTER = 2.2  # Least width of a slot over the radius of its corners
 _LEAST = 0.05  # Share of a size below which roots are not taken: their slopes have no bound at zero
 
-places = QuantityGroup("Layout", WITH_TILES)
-weights = QuantityGroup("Size and weight", WITH_TILES)
-rules = QuantityGroup("Gaps", WITH_TILES)
+places = QuantityGroup("Layout")
+slots = QuantityGroup("Layout", WITH_TILES)
+slot_weights = QuantityGroup("Size and weight", WITH_TILES)
+weights = QuantityGroup("Size and weight")
+rules = QuantityGroup("Gaps")
+slot_rules = QuantityGroup("Gaps", WITH_TILES)
 
 
 places.formulas("leads")
+
+
+@places.output("mm", hidden=True)
+def lead_level(m: Module) -> Scalar:
+    """Level at which the leads leave a heater: half a tile's height, or on the outer face of a pad."""
+    if m.heater_form == CUT:
+        return -m.pad_depth - 0.5 * m.lead_diameter
+    return -m.spreader_depth - 0.5 * m.heater_thickness
 
 
 @places.output("mm", hidden=True)
@@ -36,17 +48,38 @@ def lead_bend_angle(m: Module) -> Scalar:
     return np.arccos(1.0 - 0.5 * m.lead_drop / m.lead_bend_radius)
 
 
-@places.output("mm")
-def lead_slot_length(m: Module) -> Scalar:
-    """Length of the slot that the leads go down through, from the end of their heater."""
+@places.output("mm", hidden=True)
+def lead_way(m: Module) -> Scalar:
+    """Length that a lead takes until it is below the floor."""
     run = 2.0 * m.lead_bend_radius * np.sin(m.lead_bend_angle)
     inside = m.lead_bend_ratio * m.lead_diameter
     above = np.fmax(m.lead_level - m.lead_drop + m.lead_bend_radius + m.floor_thickness, 0.0)
-    under = np.sqrt(np.fmax(inside**2 - above**2, (_LEAST * inside) ** 2))
-    return np.fmax(run - under + m.tile_clearance, _CUTTER * m.corner_radius)
+    return run - np.sqrt(np.fmax(inside**2 - above**2, (_LEAST * inside) ** 2))
 
 
-@places.output("mm")
+@places.output("mm", hidden=True, requires=WITH_PADS)
+def lead_window_arc(m: Module) -> Scalar:
+    """Length of arc from the middle of a window to that of a lead's way in it; zero with tiles.
+
+    A lead slopes below the edge at the window's end, so its way ends twice the clearance before that.
+    """
+    return 0.5 * m.window_span * m.window_radius - 0.5 * m.lead_way - 2.0 * m.lead_clearance
+
+
+@rules.gap("a pad's leads have no room in its window: less window_ledge, thinner leads", requires=WITH_PADS)
+def lead_window_margin(m: Module) -> Scalar:
+    """Room of a straight lead in the window of its pad, beside it or to the other one; zero with tiles."""
+    beside = 0.5 * (m.window_depth - m.lead_diameter) - m.lead_way**2 / (8.0 * m.window_radius)
+    return np.fmin(beside - m.lead_clearance, m.lead_window_arc - 0.5 * m.lead_way)
+
+
+@slots.output("mm")
+def lead_slot_length(m: Module) -> Scalar:
+    """Length of the slot that the leads go down through, from the end of their heater."""
+    return np.fmax(m.lead_way + m.tile_clearance, _CUTTER * m.corner_radius)
+
+
+@slots.output("mm")
 def lead_slot_width(m: Module) -> Scalar:
     """Width of that slot: both leads go through it side by side."""
     return np.fmax(LEADS * m.lead_hole_diameter, _CUTTER * m.corner_radius)
@@ -57,7 +90,7 @@ def _slot_end(m: Module) -> Scalar:
     return 0.5 * m.heater_length + m.lead_slot_length
 
 
-@places.output("mm")
+@slots.output("mm")
 def lead_slot_radius(m: Module) -> Scalar:
     """Distance of that slot's middle from the axis, across its module: behind its middle, or as the arc allows."""
     least = 0.1 * m.pcl_outer_radius
@@ -65,7 +98,7 @@ def lead_slot_radius(m: Module) -> Scalar:
     return np.fmin(m.tile_radius, reach - 0.5 * m.lead_slot_width)
 
 
-@weights.helper(default=NOTHING)
+@slot_weights.helper(default=NOTHING)
 def lead_hole_section(m: Module) -> Section:
     """Plan view of the slots for leads, one beside each module, and of the thermistors' holes, one below each arc."""
     along = 0.5 * m.heater_length + 0.5 * m.lead_slot_length
@@ -76,7 +109,7 @@ def lead_hole_section(m: Module) -> Section:
 
 @weights.output("mm^3")
 def lead_volume(m: Module) -> Scalar:
-    """Volume of all leads of heaters between these and the ground below the floor; zero without."""
+    """Volume of all leads of heaters between these and the ground below the floor."""
     section = 0.25 * np.pi * m.lead_diameter**2
     return LEADS * m.heater_count * section * 2.0 * m.lead_bend_radius * m.lead_bend_angle
 
@@ -84,14 +117,14 @@ def lead_volume(m: Module) -> Scalar:
 rules.margins("leads")
 
 
-@rules.gap("the slot for the leads reaches beyond the arc's end: a longer arc")
+@slot_rules.gap("the slot for the leads reaches beyond the arc's end: a longer arc")
 def lead_slot_end_margin(m: Module) -> Scalar:
     """Room between the far corner of the slot for the leads and the end of its arc."""
     half = 0.5 * (m.arc_span - (m.tiles_per_arc - 1.0) * m.tile_pitch)
     return (m.lead_slot_radius - 0.5 * m.lead_slot_width) * np.sin(half) - _slot_end(m) * np.cos(half)
 
 
-@rules.gap("the slot for the leads lies below the next heater: fewer, or a longer arc")
+@slot_rules.gap("the slot for the leads lies below the next heater: fewer, or a longer arc")
 def lead_tile_margin(m: Module) -> Scalar:
     """Gap of that slot to the next heater of its arc beyond the least; zero for one module an arc."""
     inner, pitch = m.lead_slot_radius - 0.5 * m.lead_slot_width, m.tile_pitch
