@@ -311,6 +311,7 @@ def heater_order(design: Design) -> list[str]:
             "only behind the driver, which limits the current",
         ]
         leads += f" of {wire.gauge} or thicker" if (wire := _wire(amperes)) else f" for {up(amperes)} A"
+    leads += f", {1e3 * design.value('lead_diameter'):.3g} mm thick at most"
     long, ledge = (1e3 * design.value(name) for name in ("envelope_diameter", "window_ledge"))
     exits = f"at least {long:.0f} mm long, off one face, {ledge:.3g} mm or more inside the outline"
     if design.mode == "compression":

@@ -247,7 +247,7 @@ def _bead_place(dims: Dimensions) -> tuple[float, float]:
     return dims.pcl_outer_radius + half, -half
 
 
-# --- thermal cut-out: below the floor, across a window or slot in which a gap pad leads to the heater ---
+# --- thermal cut-out: below floor and pads' leads, across a window or slot in which a gap pad leads to the heater ---
 
 
 def cutout(dims: Dimensions) -> cq.Shape:
@@ -257,7 +257,7 @@ def cutout(dims: Dimensions) -> cq.Shape:
     upright = join(
         cylinder(0.5 * dims.cutout_diameter, -half, half), [cylinder(leg, -reach, -half), cylinder(leg, half, reach)]
     )
-    level = -dims.floor_thickness - 0.5 * dims.cutout_diameter
+    level = -dims.floor_thickness - dims.cutout_drop - 0.5 * dims.cutout_diameter
     return upright.moved(cq.Location(cq.Vector(dims.cutout_radius, 0.0, level), cq.Vector(1, 0, 0), -90))
 
 

@@ -149,6 +149,12 @@ def cutout_radius(m: Module) -> Scalar:
     return m.window_radius if m.heater_form == CUT else m.tile_radius
 
 
+@places.output("mm", hidden=True, requires=WITH_CUTOUT)
+def cutout_drop(m: Module) -> Scalar:
+    """Distance of the thermal cut-out from the floor, which a pad's leads pass; zero with tiles, or without one."""
+    return m.lead_diameter + 2.0 * m.lead_clearance if m.heater_form == CUT else 0.0
+
+
 rules.same("liner_web", "backing_depth", "Rotor plate above a liner; zero without", "mm", requires=WITH_LINER)
 
 

@@ -1,10 +1,11 @@
 """Leads of the heaters under the arcs: how they bend, and the way they go down through the floor.
 
-A lead bends down by `lead_bend_radius` and back again, and runs on along the ground below the floor. Both leads of a
-module leave one end of it side by side, at half its height. A slot beside that end of each module is as long as this
-bend needs. The module's colder plate ends a porch before that end, on which the leads are soldered.
+Both leads of a module leave one end of it side by side, at half its height. They bend down by `lead_bend_radius` and
+back again, and run on along the ground below the floor. A slot beside that end of each module is as long as this bend
+needs. The module's colder plate ends a porch before that end, on which the leads are soldered.
 
-The leads of a pad lie on its outer face, in the window: one at either end of this, its bend towards that end.
+The leads of a pad lie on its outer face, in the middle of the window: one at either end of this, its bend towards that
+end. They run on along the floor's lower face, above the thermal cut-out.
 """
 
 import numpy as np
@@ -35,10 +36,24 @@ def lead_level(m: Module) -> Scalar:
     return -m.spreader_depth - 0.5 * m.heater_thickness
 
 
+def _to_floor(m: Module) -> Scalar:
+    """Return the height from the level at which leads leave a heater to the one at which they touch the floor [m]."""
+    return m.lead_level + m.floor_thickness + 0.5 * m.lead_diameter
+
+
+@places.output("mm")
+def lead_bend_radius(m: Module) -> Scalar:
+    """Radius to which the leads of a heater are bent, along their middle: two quarter turns bring a pad's through."""
+    least = (m.lead_bend_ratio + 0.5) * m.lead_diameter
+    return np.fmax(least, 0.5 * (_to_floor(m) + m.lead_clearance)) if m.heater_form == CUT else least
+
+
 @places.output("mm", hidden=True)
 def lead_drop(m: Module) -> Scalar:
-    """Height by which the leads go down: to the ground, but no further than their two bends reach."""
-    to_ground = m.lead_level + m.floor_thickness + m.foot_height - 0.5 * m.lead_diameter
+    """Height by which the leads go down: of a tile to the ground, but no further than their two bends reach."""
+    if m.heater_form == CUT:
+        return _to_floor(m) + m.lead_clearance
+    to_ground = _to_floor(m) + m.foot_height - m.lead_diameter
     return np.fmin(np.fmax(to_ground, _LEAST * m.lead_bend_radius), 2.0 * m.lead_bend_radius)
 
 
@@ -52,25 +67,25 @@ def lead_bend_angle(m: Module) -> Scalar:
 def lead_way(m: Module) -> Scalar:
     """Length that a lead takes until it is below the floor."""
     run = 2.0 * m.lead_bend_radius * np.sin(m.lead_bend_angle)
-    inside = m.lead_bend_ratio * m.lead_diameter
+    if m.heater_form == CUT:
+        return run
+    inside = m.lead_bend_radius - 0.5 * m.lead_diameter
     above = np.fmax(m.lead_level - m.lead_drop + m.lead_bend_radius + m.floor_thickness, 0.0)
     return run - np.sqrt(np.fmax(inside**2 - above**2, (_LEAST * inside) ** 2))
 
 
 @places.output("mm", hidden=True, requires=WITH_PADS)
 def lead_window_arc(m: Module) -> Scalar:
-    """Length of arc from the middle of a window to that of a lead's way in it; zero with tiles.
-
-    A lead slopes below the edge at the window's end, so its way ends twice the clearance before that.
-    """
-    return 0.5 * m.window_span * m.window_radius - 0.5 * m.lead_way - 2.0 * m.lead_clearance
+    """Length of arc from the middle of a window to that of a lead's way in it; zero with tiles."""
+    return 0.5 * (m.window_span * m.window_radius - m.lead_way)
 
 
 @rules.gap("a pad's leads have no room in its window: less window_ledge, thinner leads", requires=WITH_PADS)
 def lead_window_margin(m: Module) -> Scalar:
     """Room of a straight lead in the window of its pad, beside it or to the other one; zero with tiles."""
     beside = 0.5 * (m.window_depth - m.lead_diameter) - m.lead_way**2 / (8.0 * m.window_radius)
-    return np.fmin(beside - m.lead_clearance, m.lead_window_arc - 0.5 * m.lead_way)
+    apart = m.lead_window_arc * (1.0 - 0.5 * m.lead_diameter / m.window_radius) - 0.5 * m.lead_way
+    return np.fmin(beside, apart) - m.lead_clearance
 
 
 @slots.output("mm")
