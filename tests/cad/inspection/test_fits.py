@@ -90,7 +90,7 @@ def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported():
 
 
 @pytest.mark.parametrize(("mode", "away"), [("shear", (1.0, 0.0)), ("compression", (2.0, 0.0))])
-def test_leads_of_pads_begin_on_them_and_go_down_to_the_side(mode, away):
+def test_leads_of_pads_begin_on_them_and_leave_below(mode, away):
     design = design_of("pads", {"heater_module": "polyimide_foil_24v"} if mode == "shear" else {}, mode)
     dims = dimensions(design)
     polymer = "pcl_arc" if mode == "shear" else "pcl_block"
@@ -109,7 +109,7 @@ def test_leads_of_pads_begin_on_them_and_go_down_to_the_side(mode, away):
     assert not check.ok
 
 
-def test_a_lead_that_a_window_has_no_room_for_breaks_a_rule_and_meets_the_floor():
+def test_a_lead_too_thick_for_its_window_breaks_a_rule():
     narrow = design_of("narrow", {"window_ledge": 5.7e-3, "lead_diameter": 2.4e-3})
     assert narrow.values["lead_window_margin"] < 0.0
     solids = placed_solids(dimensions(narrow), ("housing", "heater", "heater_lead", "pcl_arc"))
