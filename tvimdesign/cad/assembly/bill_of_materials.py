@@ -160,7 +160,7 @@ def _titled(design: Design, kind: str, title: str) -> str:
     if kind == "thermistor":
         return thermistor_in_words(design)
     if kind == "heater_lead":
-        return f"{lead_in_words(design)}; it comes with its module, drawn as far as the ground"
+        return f"{lead_in_words(design)}; it comes with its heater, drawn as far as it goes down"
     if kind == "heater" and (order := heater_order(design)):
         return "; ".join([f"{title}, to the outline of its STEP file", *order])
     if kind in _SEALED:
