@@ -54,11 +54,14 @@ ARCS, INNER, LEDGE, RHO_PCL, K_SOLID, K_MELT = 4.0, 26e-3, 2e-3, 1145.0, 0.225, 
 G_FROZEN = 411e6 / (2.0 * (1.0 + 0.45))  # at 23 degC
 BOND, SHEAR_YIELD, MELT_STRAIN, MELT_FRACTURE = 2e6, 16e6 / math.sqrt(3.0), 6.0, 0.2e6
 PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD, BULK_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6, 1e9
+LEAD, FILM, LEAD_BEND = 1.4e-3, 0.1e-3, 3.5e-3  # of a pad: thickness, least gap, radius along its middle
+LEAD_ANGLE = math.acos(1.0 - 0.5 * (FLOOR - PAD + FILM) / LEAD_BEND)
+LEAD_WAY, LEADS = 2.0 * LEAD_BEND * math.sin(LEAD_ANGLE), 2600.0 * ARCS * PI * LEAD**2 * LEAD_BEND * LEAD_ANGLE  # m, kg
 PAD_SHEAR, GLUE = 2e6, 6e6 / HOLDING_SAFETY  # Pa, of the pads by their record, of what holds them on their ledges
 EMISSIVITY, BLACK, AMBIENT = 0.9, 5.670374419e-8, 295.15
 
 SPRINGS = 4.0
-OUTPUTS, RESIDUALS, HEAT = 3, 52, 68
+OUTPUTS, RESIDUALS, HEAT = 3, 53, 68
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
 and the table, without the rules on impedance, keys and free angles that no design of this problem can break. HEAT
 numbers for the switch.
@@ -328,6 +331,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     mass = RHO_PETG * (housing + turning + link + retainer) + RHO_PCL * area * t + pads
     mass += (
         CUTOUT
+        + LEADS
         + RHO_WIRE * SPRINGS * 0.25 * PI * d**2 * wire
         + RHO_SCREW * (shanks + heads + shank + head)
         + RHO_STEEL * dowel * DOWEL_LONG
@@ -393,6 +397,9 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[49] = -(t + FLOOR - WALL_LEAST) / 0.01
     g[50] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
     g[51] = -((2.0 * PI / ARCS - wider) * into - WALL_LEAST) / 0.01
+    beside = 0.5 * (outer - INNER - 2.0 * LEDGE - LEAD) - LEAD_WAY**2 / (8.0 * middle)
+    apart = 0.5 * (opened * middle - LEAD_WAY) * (1.0 - 0.5 * LEAD / middle) - 0.5 * LEAD_WAY
+    g[52] = -(min(beside, apart) - FILM) / 0.01
     # what the switch needs: current, area, layer, pads, windows; what the strips are taken from, sides in the air
     heat[0], heat[1], heat[2], heat[3] = x[7], area, t, area / PAD_AREA
     heat[4], heat[5] = pads * C_PAD, windows

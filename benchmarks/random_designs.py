@@ -187,7 +187,7 @@ def faults(design: Design, inspect: bool) -> tuple[list[str], list[str]]:
     dims = dimensions(design)
     drawn = drawn_parts(dims)
     checks = [*rest_checks(design, dims, drawn), *(solid_check(kind, solid) for kind, solid in drawn.items())]
-    checks += [check for share in POSITIONS for check in clearance_checks(dims, drawn, share, lambda _: None)]
+    checks += [check for share in POSITIONS for check in clearance_checks(dims, drawn, share)]
     for kind, solid in drawn.items():
         closed(kind, solid_mesh(solid))
         if inspect and is_of_structure(kind):

@@ -281,6 +281,7 @@ NUMBERED = re.compile(f"{STANDARDS}|{MAKERS}")
 TO_SIZE = {
     "preload_spring": r"flat wire, [\d.]+ x [\d.]+ x [\d.]+ mm, .* waves, .* free, wound to order",
     "heater": r"to the outline of its STEP file; resistance [\d.]+ ohm each, .* W each, at [\d.]+ V",
+    "heater_lead": r"Lead of [\d.]+ mm; it comes with its heater",
     "liner": r"[\d.]+ mm thick, to the outline of its STEP file",
     "filament": r"of 1\.75 mm",
     **dict.fromkeys(("cover_insert", "link_insert", "retainer_insert", "adjuster_insert"), r"M\d"),

@@ -54,8 +54,8 @@ def test_every_file_is_there_and_every_check_holds(made):
     expected |= pictures
     for kind in MODULES[design.mode].kinds(dimensions(design)):
         expected.add(f"step/{kind}.step")
-        bought = kind in {"heater", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw",
-                          "thermal_cutout", "link_insert", "retainer_insert"}  # fmt: skip
+        bought = kind in {"heater", "heater_lead", "spring_right", "spring_left", "link_screw", "link_dowel",
+                          "retainer_screw", "thermal_cutout", "link_insert", "retainer_insert"}  # fmt: skip
         expected |= set() if bought else {f"print/{kind}.stl", f"print/{kind}.3mf"}
     expected |= {f"step/{piece}.step" for piece in ("casting_mould", "casting_lid", "setting_fork")}
     expected |= {
@@ -113,8 +113,8 @@ def test_moving_parts_are_compared_with_all_they_could_meet(made):
 def test_step_and_mesh_read_back_with_names_and_colours(made):
     for kind in MODULES[made.design.mode].kinds(dimensions(made.design)):
         copies = {"link_screw": 4, "link_insert": 4, "link_dowel": 4}.get(kind, 1)
-        if kind in ("pcl_arc", "pcl_block", "heater"):
-            copies = COPIES[made.design.mode]
+        if kind in ("pcl_arc", "pcl_block", "heater", "heater_lead"):
+            copies = COPIES[made.design.mode] * (2 if kind == "heater_lead" else 1)
         expected = 1e9 * made.design.values[KINDS[kind].volume] / copies
         solid = cq.importers.importStep(str(made.report.folder / f"step/{kind}.step")).val()
         assert isinstance(solid, cq.Solid)
@@ -127,8 +127,8 @@ def test_step_and_mesh_read_back_with_names_and_colours(made):
             assert mesh.bounds[0][2] == pytest.approx(0.0, abs=1e-6), f"{kind} is not on the bed"
     path = made.report.folder / "assembly.step"
     parts = {name: (shape, colour) for shape, name, _, colour in cq.Assembly.importStep(str(path))}
-    # Four of the kinds made once, the cut-out, springs, five screws and as many inserts, four pins.
-    assert len(parts) == 23 + 2 * COPIES[made.design.mode]
+    # Four of the kinds made once, the cut-out, springs, five screws and as many inserts, four pins; two leads a pad.
+    assert len(parts) == 23 + 4 * COPIES[made.design.mode]
     for name, (shape, colour) in parts.items():
         kind = name.split("/")[-1].rstrip("_0123456789")
         assert isinstance(shape, cq.Solid)

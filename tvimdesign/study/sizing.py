@@ -286,9 +286,14 @@ def _vary(task: JointTask, widen: float, entry: dict[str, str]) -> str:
     return _last_of_each("\n".join([*lines, over.get("vary", "")]), without=over.get("fixed", ""))
 
 
+_THIN_LEADS = 0.03  # Diameter [m] below which pads have room for thin leads alone
+
+
 def _heater(task: JointTask) -> str:
     if over := _over(task):
         return over["heater"]
+    if task.diameter < _THIN_LEADS:
+        return "polyimide_foil_48v"
     return "polyimide_foil_24v" if task.voltage >= 23.9 else "polyimide_foil_12v"
 
 

@@ -160,7 +160,7 @@ def test_foils_films_and_spreaders_are_ordered_by_their_measures():
     for words in (
         f"{each:.3g} ohm each, ± 10 %",
         power,
-        "two leads of AWG 22 or thicker, insulated for 160 °C",
+        "two leads of AWG 22 or thicker, 1 mm thick at most, insulated for 160 °C",
         "2 mm or more",
     ):
         assert words in item.title
