@@ -41,9 +41,9 @@ def arc_tile(dims: Dimensions) -> cq.Shape:
 
 
 def heater_lead(dims: Dimensions) -> cq.Shape:
-    """Draw one lead of a heater on the x axis from a tile's end, or a pad's outer face, to the ground."""
+    """Draw one lead of a heater on the x axis from a tile's end to the ground, or from a pad to below the floor."""
     radius, angle, level = dims.lead_bend_radius, dims.lead_bend_angle, dims.lead_level
-    x, end = dims.window_radius, 0.5 * dims.lead_way
+    x, end = dims.pcl_mean_radius, 0.5 * dims.lead_way
     if dims.spreader_depth:
         x, end = dims.lead_slot_radius, -0.5 * dims.heater_length
     run, drop = 2.0 * radius * sin(angle), dims.lead_drop
@@ -59,8 +59,8 @@ def leads_below_arcs(dims: Dimensions, lead: cq.Solid, azimuths: Sequence[float]
         apart = 0.25 * dims.lead_slot_width
         pair = [lead.moved(cq.Location(cq.Vector(side * apart, 0.0, 0.0))) for side in _SIDES]
     else:
-        back = lead.moved(cq.Location(cq.Vector(2.0 * dims.window_radius, 0.0, 0.0), cq.Vector(0, 0, 1), 180.0))
-        beside = dims.lead_window_arc / dims.window_radius
+        back = lead.moved(cq.Location(cq.Vector(2.0 * dims.pcl_mean_radius, 0.0, 0.0), cq.Vector(0, 0, 1), 180.0))
+        beside = dims.lead_window_arc / dims.pcl_mean_radius
         pair = [turned(lead, -beside), turned(back, beside)]
     return _numbered([turned(bent, azimuth) for azimuth in azimuths for bent in pair])
 

@@ -146,7 +146,7 @@ rules.after("mount_wall_gap")
 @places.output("mm", requires=WITH_CUTOUT)
 def cutout_radius(m: Module) -> Scalar:
     """Distance of the thermal cut-out's middle from the axis: below the middle of the window; zero without."""
-    return m.window_radius if m.heater_form == CUT else m.tile_radius
+    return m.pcl_mean_radius if m.heater_form == CUT else m.tile_radius
 
 
 @places.output("mm", hidden=True, requires=WITH_CUTOUT)

@@ -201,7 +201,7 @@ def heater_strings(m: Module) -> Scalar:
 def spreader_resistance(m: Module) -> Scalar:
     """Resistance of the way along the spreader to what its modules do not cover, times the layer's area."""
     width, tile = m.pcl_outer_radius - m.pcl_inner_radius, (m.heater_length, m.heater_width)
-    inwards = 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius) - m.tile_radius
+    inwards = m.pcl_mean_radius - m.tile_radius
     return peltier.row_spreading_resistance(
         m.pcl_area, width, m.heater_count, tile, 2, m.spreader_conductivity, m.spreader_thickness, inwards
     )

@@ -25,9 +25,6 @@ rules = QuantityGroup("Gaps")
 slot_rules = QuantityGroup("Gaps", WITH_TILES)
 
 
-places.formulas("leads")
-
-
 @places.output("mm", hidden=True)
 def lead_level(m: Module) -> Scalar:
     """Level at which the leads leave a heater: half a tile's height, or on the outer face of a pad."""
@@ -77,14 +74,14 @@ def lead_way(m: Module) -> Scalar:
 @places.output("mm", hidden=True, requires=WITH_PADS)
 def lead_window_arc(m: Module) -> Scalar:
     """Length of arc from the middle of a window to that of a lead's way in it; zero with tiles."""
-    return 0.5 * (m.window_span * m.window_radius - m.lead_way)
+    return 0.5 * (m.window_span * m.pcl_mean_radius - m.lead_way)
 
 
 @rules.gap("a pad's leads have no room in its window: less window_ledge, thinner leads", requires=WITH_PADS)
 def lead_window_margin(m: Module) -> Scalar:
     """Room of a straight lead in the window of its pad, beside it or to the other one; zero with tiles."""
-    beside = 0.5 * (m.window_depth - m.lead_diameter) - m.lead_way**2 / (8.0 * m.window_radius)
-    apart = m.lead_window_arc * (1.0 - 0.5 * m.lead_diameter / m.window_radius) - 0.5 * m.lead_way
+    beside = 0.5 * (m.window_depth - m.lead_diameter) - m.lead_way**2 / (8.0 * m.pcl_mean_radius)
+    apart = m.lead_window_arc * (1.0 - 0.5 * m.lead_diameter / m.pcl_mean_radius) - 0.5 * m.lead_way
     return np.fmin(beside, apart) - m.lead_clearance
 
 

@@ -170,9 +170,9 @@ def structure_shear_modulus(m: Module) -> Scalar:
     return structure.shear_modulus(m.structure_youngs_modulus, m.structure_poissons_ratio)
 
 
-@quantities.helper()
+@quantities.output("mm", hidden=True)
 def pcl_mean_radius(m: Module) -> Scalar:
-    """Mean radius of the PCL [m]."""
+    """Mean radius of the PCL."""
     return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius)
 
 
