@@ -191,7 +191,8 @@ def test_a_small_foil_on_a_strong_supply_is_ordered_by_its_working_voltage():
     assert "which the driver" not in large
     assert "flat tail" not in large
     middle = 500.0 * (design.values["pcl_inner_radius"] + design.values["pcl_outer_radius"])
-    assert f"off one face, 2 mm or more inside the outline, on R{middle:.3g}, one at either end" in large
+    assert f"off one face, 2 mm or more inside the outline, on R{middle:.3g}, " in large
+    assert " mm to either side of the middle, towards the ends" in large
     design.study["require"] = [{"output": "peak_voltage", "limit": 24.0}]
     for name in ("heater_volume", "heater_area"):
         design.values[name] *= 0.2

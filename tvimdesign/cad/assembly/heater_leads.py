@@ -318,7 +318,8 @@ def heater_order(design: Design) -> list[str]:
         exits += f", side by side from R{1e3 * design.value('slot_inner_radius'):.3g} outwards"
     else:  # in the window of the floor, where there is no ledge
         radius = 5e2 * (design.value("pcl_inner_radius") + design.value("pcl_outer_radius"))
-        exits += f", on R{radius:.3g}, one at either end"
+        start = 1e3 * design.value("lead_start")
+        exits += f", on R{radius:.3g}, {start:.2g} mm to either side of the middle, towards the ends"
     small = f"only {1e4 * area / count:.2g} cm² each: ask whether such leads have room, or for a flat tail"
     order += [f"{leads}, insulated for {rating(design)}", f"leads {exits}"]
     return [*order, small] if area < _SMALL_FOIL * count else order

@@ -60,7 +60,7 @@ def leads_below_arcs(dims: Dimensions, lead: cq.Solid, azimuths: Sequence[float]
         pair = [lead.moved(cq.Location(cq.Vector(side * apart, 0.0, 0.0))) for side in _SIDES]
     else:
         back = lead.moved(cq.Location(cq.Vector(2.0 * dims.pcl_mean_radius, 0.0, 0.0), cq.Vector(0, 0, 1), 180.0))
-        beside = dims.lead_window_arc / dims.pcl_mean_radius
+        beside = (dims.lead_start + 0.5 * dims.lead_way) / dims.pcl_mean_radius
         pair = [turned(lead, -beside), turned(back, beside)]
     return _numbered([turned(bent, azimuth) for azimuth in azimuths for bent in pair])
 

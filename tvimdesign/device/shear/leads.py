@@ -71,18 +71,18 @@ def lead_way(m: Module) -> Scalar:
     return run - np.sqrt(np.fmax(inside**2 - above**2, (_LEAST * inside) ** 2))
 
 
-@places.output("mm", hidden=True, requires=WITH_PADS)
-def lead_window_arc(m: Module) -> Scalar:
-    """Length of arc from the middle of a window to that of a lead's way in it; zero with tiles."""
-    return 0.5 * (m.window_span * m.pcl_mean_radius - m.lead_way)
+@places.output("mm", requires=WITH_PADS)
+def lead_start(m: Module) -> Scalar:
+    """Length of arc from the middle of a pad to where its leads leave it, towards its ends; zero with tiles."""
+    return 0.5 * m.window_span * m.pcl_mean_radius - m.lead_way
 
 
 @rules.gap("a pad's leads have no room in its window: less window_ledge, thinner leads", requires=WITH_PADS)
 def lead_window_margin(m: Module) -> Scalar:
     """Room of a straight lead in the window of its pad, beside it or to the other one; zero with tiles."""
     beside = 0.5 * (m.window_depth - m.lead_diameter) - m.lead_way**2 / (8.0 * m.pcl_mean_radius)
-    apart = m.lead_window_arc * (1.0 - 0.5 * m.lead_diameter / m.pcl_mean_radius) - 0.5 * m.lead_way
-    return np.fmin(beside, apart) - m.lead_clearance
+    tilt = (m.lead_start + 0.5 * m.lead_way) / m.pcl_mean_radius
+    return np.fmin(beside, m.lead_start - 0.5 * m.lead_diameter * tilt) - m.lead_clearance
 
 
 @slots.output("mm")
