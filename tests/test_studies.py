@@ -128,6 +128,7 @@ def test_the_springs_of_a_study_hold_by_a_second_implementation(runs, study):
         stiffness = {limit["output"] for limit in design["study"]["require"]} & {
             "spring_stiffness",
             "joint_stiffness@hot",
+            "softened_stiffness",
         }
         assert stiffness, "every optimum is asked for a stiffness"
         assert design["choices"]["transmission"] == "geometry"

@@ -55,7 +55,7 @@ BEND_ACROSS = 1.1  # calibrated, validation/fe_spring
 DOWN, ACROSS = np.array([0.0, 0.0, -1.0]), np.array([0.0, 1.0, 0.0])
 
 
-DRAWN = ("coil_pitch", "coil_end_level", "rotor_top_level", "tang_length")
+DRAWN = ("coil_pitch", "coil_end_level", "rotor_top_level", "tang_length", "pin_foot_diameter", "adjuster_radius")
 """Lengths of the drawn module that are read beside its inputs."""
 
 
@@ -166,13 +166,13 @@ def rate(module: Numbers) -> float:
 def held_rate(module: Numbers) -> float:
     """Torque of a spring per winding [N*m/rad] of the spring, its pin and its tang's hole, one behind the other.
 
-    The pin is a Timoshenko beam on a foot that rocks as a rigid disc on a half-space; the hole is twisted in a plate
-    without end. `leg_model: ignored` holds the spring rigidly.
+    The pin, or the boss of a dowel pin, is a Timoshenko beam on a foot that rocks as a rigid disc on a half-space; the
+    hole is twisted in a plate without end. `leg_model: ignored` holds the spring rigidly.
     """
     if module["leg_model"] == "ignored":
         return rate(module)
     modulus, poisson = module["structure_youngs_modulus"], module["structure_poissons_ratio"]
-    shear, pin, arm = modulus / 2.0 / (1.0 + poisson), 0.5 * module["pin_diameter"], leg(module, 0.0)[1]
+    shear, pin, arm = modulus / 2.0 / (1.0 + poisson), 0.5 * module["pin_foot_diameter"], leg(module, 0.0)[1]
     climb = module["coil_pitch"] / (np.pi * module["coil_diameter"])
     above = max(module["coil_end_level"] + climb * arm - module["rotor_top_level"], 0.5 * module["wire_diameter"])
     beam = above**3 / (3.0 * modulus * np.pi / 4.0 * pin**4) + above / (0.9 * shear * np.pi * pin**2)
@@ -221,6 +221,7 @@ def statics(module: Numbers) -> dict[str, float]:
     # (n a / S_e) + (n m / S_ut)^2 = 1 for the safety n.
     a, b = (mean / strength) ** 2, amplitude / endurance
     reach = tang_lever(module) + 0.5 * wire
+    wider = max(reach + module["radial_clearance"], module["adjuster_radius"] + module["slip_clearance"])
     return {
         "spring_rate": rate(module),
         "held_spring_rate": held_rate(module),
@@ -236,8 +237,7 @@ def statics(module: Numbers) -> dict[str, float]:
         "spring_stress": per_angle * stopped.max(),
         "spring_static_safety": module["yield_strength"] / (per_angle * stopped.max()),
         "spring_fatigue_safety": float((-b + np.sqrt(b**2 + 4.0 * a)) / (2.0 * a)),
-        "envelope_diameter": 2.0
-        * (module["placement_radius"] + reach + module["radial_clearance"] + module["wall_thickness"]),
+        "envelope_diameter": 2.0 * (module["placement_radius"] + wider + module["wall_thickness"]),
     }
 
 
