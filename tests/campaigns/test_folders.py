@@ -83,11 +83,11 @@ def test_another_end_than_the_one_expected_is_a_fault(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [3, 5])
+@pytest.mark.parametrize("seed", [3, 6])
 def test_a_random_study_is_answered_and_its_answer_stands(seed):
     verdict = random_studies.judged(seed)
     assert verdict["wrong"] == ""
-    assert verdict["status"] == {3: "above_rating", 5: "infeasible"}[seed]
+    assert verdict["status"] == {3: "above_rating", 6: "infeasible"}[seed]
 
 
 def test_the_attack_counts_only_designs_whose_switch_ends():

@@ -133,6 +133,8 @@ def check_faces(kind: str, solid: cq.Solid, rows: list[FeatureRow], document: Dr
         box = face.BoundingBox()
         heights = f"h {figure(box.zmin - lowest)} to {figure(box.zmax - lowest)} ("
         level = [row for row in rows if heights in row.text or row.through or row.what == "corners"]
+        ends = box.zmin - lowest, box.zmax - lowest  # The height of a boss has the fillet at its foot
+        level += [row for row in rows if row.what == "boss" and row.bottom <= ends[0] and abs(row.top - ends[1]) < 1e-3]
         if face.geomType() == "CYLINDER":
             axis = face._geomAdaptor().Cylinder()
             radius, place = axis.Radius(), axis.Location()

@@ -327,6 +327,8 @@ def test_a_screw_is_reached_by_its_own_key(dims, drawn, bore, level):
 )
 def test_the_reference_modules_have_nothing_that_cannot_be_made(mode, process):
     overrides = (BLOCKS if mode == "compression" else {}) | {"process": process}
+    if process == "machine_6061":
+        overrides |= {"retainer_screw_length": 8e-3}  # A tapped hole is deeper than its screw
     design = design_of("reference", overrides, mode)
     dims = dimensions(design)
     drawn = drawn_parts(dims)
