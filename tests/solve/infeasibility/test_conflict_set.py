@@ -68,11 +68,11 @@ def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps():
 
 @pytest.mark.slow
 def test_records_are_named_with_which_conflicting_limits_hold():
-    # The wave spring of this hardware must go around a core that bears the torque, and so must the pins in it.
+    # The wave spring of this hardware must go around a core that bears the torque; of a stronger plastic it is thinner.
     task = JointTask.read("9 N.m", "1.5 N.m/rad", "74 mm", "60 s", "24 V, 3 A")
     text = study_text(task, "middle")
     records = re.findall(r"`(\w+): (\w+)`", _refusal(text))
-    assert [choice for choice, _ in records] == ["axial_preload", "link_screw"]
+    assert [choice for choice, _ in records] == ["axial_preload", "process"]
     for choice, record in records:
         refuse_infeasible(read_study_text(re.sub(rf"(?m)^  {choice}: .*$", f"  {choice}: {record}", text)))
 

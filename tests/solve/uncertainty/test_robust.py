@@ -40,8 +40,10 @@ from tvimdesign.study.tree import tree_of_file, with_settings
 
 TIMED = sample_text("robust_in_time")
 
-UNMEASURED = ALGEBRAIC.replace("springs_mass", "module_mass").replace(
-    "3, 8]", "3, 8], retainer_screw_length: [8 mm, 16 mm]"
+UNMEASURED = (
+    ALGEBRAIC.replace("springs_mass", "module_mass")
+    .replace("3, 8]", "3, 8], retainer_screw_length: [8 mm, 16 mm]")
+    .replace("module: {", "module: {thread_insert: none, ")
 )
 
 
