@@ -81,11 +81,11 @@ def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported():
     dims = dimensions(design_of("tiles", TILES))
     kinds = ("housing", "heater", "heater_lead", "spreader", "pcl_arc", "thermal_cutout")
     solids = placed_solids(dims, kinds)
-    checks = {check.part: check for check in bought_checks(solids)}
+    checks = {check.part: check for check in bought_checks(dims, solids)}
     assert set(checks) == {"heater_lead", "thermal_cutout"}
     assert all(check.ok for check in checks.values()), [check.text for check in checks.values()]
     aside = solids["heater_lead_1"].moved(cq.Location(cq.Vector(0.0, 0.0, 2.0)))
-    moved = {check.part: check for check in bought_checks({**solids, "heater_lead_1": aside})}
+    moved = {check.part: check for check in bought_checks(dims, {**solids, "heater_lead_1": aside})}
     assert not moved["heater_lead"].ok
 
 
@@ -102,18 +102,21 @@ def test_leads_of_pads_begin_on_them_and_leave_below(mode, away):
         pads = [solid for name, solid in solids.items() if kind_of(name) == "heater"]
         assert min(lead.distance(pad) for pad in pads) == pytest.approx(0.0, abs=1e-6)
         assert lead.BoundingBox().zmin < -dims.floor_thickness + 1e-6
-    checks = {check.part: check for check in bought_checks(solids)}
+    checks = {check.part: check for check in bought_checks(dims, solids)}
     assert all(check.ok for check in checks.values()), [check.text for check in checks.values()]
     moved = leads["heater_lead_1"].moved(cq.Location(cq.Vector(*away, 0.0)))
-    (check,) = (check for check in bought_checks({**solids, "heater_lead_1": moved}) if check.part == "heater_lead")
+    (check,) = (
+        check for check in bought_checks(dims, {**solids, "heater_lead_1": moved}) if check.part == "heater_lead"
+    )
     assert not check.ok
 
 
 def test_a_lead_too_thick_for_its_window_breaks_a_rule():
     narrow = design_of("narrow", {"window_ledge": 5.7e-3, "lead_diameter": 2.4e-3})
     assert narrow.values["lead_window_margin"] < 0.0
-    solids = placed_solids(dimensions(narrow), ("housing", "heater", "heater_lead", "pcl_arc"))
-    (check,) = bought_checks(solids)
+    dims = dimensions(narrow)
+    solids = placed_solids(dims, ("housing", "heater", "heater_lead", "pcl_arc"))
+    (check,) = bought_checks(dims, solids)
     assert check.value < 0.1
 
 

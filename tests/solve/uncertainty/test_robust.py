@@ -292,9 +292,10 @@ def test_designs_beside_are_tried_where_none_is_robust(monkeypatch):
     began: dict[str, dict[str, float]] = {}
 
     def candidate(name: str, margins: dict[str, float]) -> Any:
-        optimizer = SimpleNamespace(name=name, margins={}, deadline=NEVER)
+        optimizer: Any = SimpleNamespace(name=name, margins={}, deadline=NEVER)
         start = SimpleNamespace(objective=1.0, converged=True)
-        return robust.Candidate(optimizer, SimpleNamespace(start=start, share=shares[name]), {}, margins)  # type: ignore[arg-type]
+        run: Any = SimpleNamespace(start=start, share=shares[name])
+        return robust.Candidate(optimizer, run, {}, margins)
 
     def search(optimizer: Any, run: Any, *_: object, **__: object) -> robust.Robust:
         began.setdefault(optimizer.name, dict(optimizer.margins))

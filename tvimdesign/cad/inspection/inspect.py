@@ -143,11 +143,11 @@ _WIRES = {
     "thermistor": ("heater", "spreader", "pcl_arc", "pcl_block"),
 }
 """Bought parts with wires, drawn with these, and what they touch on purpose."""
-_INSULATED = 0.1  # Least gap between a wire and what it must not touch [mm]: a film of insulation
 
 
-def bought_checks(placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
+def bought_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """Compare the envelope of bought parts, wires included, with the room that all others leave them."""
+    wanted = dims.lead_clearance
     boxes = {name: tight_box(solid) for name, solid in placed.items()}
     for kind, touched in _WIRES.items():
         names = [name for name in placed if kind_of(name) == kind]
@@ -155,14 +155,14 @@ def bought_checks(placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
             (placed[name].distance(placed[other]), name, other)
             for name in names
             for other in placed
-            if other != name and kind_of(other) not in touched and boxes_meet(boxes[name], boxes[other], _INSULATED)
+            if other != name and kind_of(other) not in touched and boxes_meet(boxes[name], boxes[other], wanted)
         ]
         if not names:
             continue
-        gap, name, other = min(gaps, default=(_INSULATED, names[0], "all others"))
-        text = f"{gap:.3g} mm between {name} and {other}, wires as they are bought; {_INSULATED:g} are wanted"
-        level = at_least(gap, _INSULATED - _ROUNDING)
-        yield finding(kind, "fits_as_bought", gap, _INSULATED, "mm", level, text, place=placed[name].Center().toTuple())
+        gap, name, other = min(gaps, default=(wanted, names[0], "all others"))
+        text = f"{gap:.3g} mm between {name} and {other}, wires as they are bought; {wanted:g} are wanted"
+        level = at_least(gap, wanted - _ROUNDING)
+        yield finding(kind, "fits_as_bought", gap, wanted, "mm", level, text, place=placed[name].Center().toTuple())
 
 
 def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:
@@ -225,7 +225,7 @@ def module_checks(
     yield from thread_checks(dims, drawn)
     placed = place(dims, drawn)
     yield from fit_checks(dims, placed)
-    yield from bought_checks(placed)
+    yield from bought_checks(dims, placed)
     yield from order_checks(dims, instances(dims, drawn, placed, known))
 
 
