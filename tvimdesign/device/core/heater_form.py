@@ -11,9 +11,8 @@ layer's material has a `resistivity`. Heat is made evenly over the layer, and a 
 
 Thermal cut-out in the heater's leads: its type, its body, and the room it takes below the floor.
 
-It opens before anything is too hot. It lies across the first arc, or across the slot of the first housing vane. Where
-the window below a heater has room for it, it lies in there on the heater's outer side, else below the floor. The rules
-ask for the room below in any case.
+It opens before anything is too hot. It lies below the floor, across the window of the first arc or the slot of the
+first housing vane; a gap pad leads to it from the heater above. A pad's leads pass above it, those in a vane beside it.
 """
 
 import functools
